@@ -117,9 +117,7 @@ def starts_something(item: pytest.Function) -> bool:
         if names & HANDLES or any(getattr(used.get(name), "__module__", "") == PROCESSES for name in names):
             return True
         todo += [
-            used[name]
-            for name in names - seen
-            if getattr(used.get(name), "__module__", "") == item.module.__name__
+            used[name] for name in names - seen if getattr(used.get(name), "__module__", "") == item.module.__name__
         ]
         seen |= names
     return not FIXTURES.isdisjoint(item.fixturenames)
@@ -166,9 +164,7 @@ def state_of_process() -> dict[str, Any]:
         "sys.path": list(sys.path),
         "sys.argv": list(sys.argv),
         "the recursion limit": sys.getrecursionlimit(),
-        "nodes of the default graph": [
-            name for graph in graphs.values() for name in graph.nodes if name != "/rosout"
-        ],
+        "nodes of the default graph": [name for graph in graphs.values() for name in graph.nodes if name != "/rosout"],
         "the root logger's handlers": list(logging.root.handlers),
     }
 
@@ -179,9 +175,7 @@ def nothing_left(folder: Path) -> Iterator[None]:
     before, modules = state_of_process(), set(sys.modules)
     yield
     after = state_of_process()
-    changed = [
-        f"{what}: {value} is now {after[what]}" for what, value in before.items() if after[what] != value
-    ]
+    changed = [f"{what}: {value} is now {after[what]}" for what, value in before.items() if after[what] != value]
     changed += [
         f"sys.modules: {name} of {file}"
         for name in sys.modules.keys() - modules

@@ -105,15 +105,11 @@ def run(
     return subprocess.CompletedProcess(words, process.returncode, out, err)
 
 
-def wait_until(
-    condition: Callable[[], object], what: str, process: Any = None, *, patience: float = PATIENCE
-) -> None:
+def wait_until(condition: Callable[[], object], what: str, process: Any = None, *, patience: float = PATIENCE) -> None:
     """Wait until a condition holds. Fails if it takes too long, or once the process that should bring it has ended."""
     deadline = time.monotonic() + patience
     while not condition():
-        assert process is None or process.poll() is None, (
-            f"no {what}: its process ended, {process.returncode}"
-        )
+        assert process is None or process.poll() is None, f"no {what}: its process ended, {process.returncode}"
         assert time.monotonic() < deadline, f"waited in vain for {what}"
         time.sleep(0.02)
 

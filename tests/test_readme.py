@@ -66,9 +66,9 @@ def test_the_versions_of_python_agree():
     named = re.findall(r":: (3\.\d+)$", "\n".join(project["classifiers"]), re.MULTILINE)
     assert named == [f"3.{minor}" for minor in range(50) if f"3.{minor}" in allowed]
     assert f"with Python {named[0]} to {named[-1]}." in README
-    matrix = yaml.safe_load((ROOT / ".github" / "workflows" / "ci.yml").read_text(encoding="utf-8"))["jobs"][
-        "readme"
-    ]["strategy"]["matrix"]
+    matrix = yaml.safe_load((ROOT / ".github" / "workflows" / "ci.yml").read_text(encoding="utf-8"))["jobs"]["readme"][
+        "strategy"
+    ]["matrix"]
     assert matrix["python"] == [named[0], named[-1]]
 
 
@@ -84,6 +84,4 @@ def test_the_versions_agree():
     citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
     assert f"\nversion: {rosmini.__version__}\n" in citation
     assert f"## {rosmini.__version__}" in (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
-    assert tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["dynamic"] == [
-        "version"
-    ]
+    assert tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["dynamic"] == ["version"]

@@ -44,9 +44,7 @@ def wheel(tmp_path_factory):
 def python(wheel, tmp_path_factory):
     """The Python of an environment with the wheel, and what runs and compares a notebook."""
     folder = tmp_path_factory.mktemp("empty")
-    pins = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["uv"][
-        "constraint-dependencies"
-    ]
+    pins = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["uv"]["constraint-dependencies"]
     (folder / "pins.txt").write_text("\n".join(pins), encoding="utf-8")
     uv("venv", "--python", sys.executable, folder / "env")
     found = folder / "env" / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
@@ -75,8 +73,7 @@ def test_the_command_xacro_finds_packages_by_itself(python, tmp_path):
 def test_the_wheel_contains_the_assets_and_stubs_but_no_tests(wheel):
     names = set(zipfile.ZipFile(wheel).namelist())
     assets = {
-        f"rosmini/_assets/{path.relative_to(ROOT / 'assets').as_posix()}"
-        for path in (ROOT / "assets").rglob("*.msg")
+        f"rosmini/_assets/{path.relative_to(ROOT / 'assets').as_posix()}" for path in (ROOT / "assets").rglob("*.msg")
     }
     assert "rosmini/_assets/ros/std_msgs/msg/String.msg" in assets
     stubs = {"rosmini/msgs/std_msgs/msg.pyi", "rosmini/msgs/std_srvs/srv.pyi"}
@@ -96,8 +93,7 @@ def test_the_wheel_contains_the_assets_and_stubs_but_no_tests(wheel):
 
 def test_it_finds_its_messages_there(python, tmp_path):
     code = (
-        "import rosmini, rosmini.msgs as m; print(rosmini.__file__); "
-        "print(m.message_class('std_msgs/String')._md5sum)"
+        "import rosmini, rosmini.msgs as m; print(rosmini.__file__); print(m.message_class('std_msgs/String')._md5sum)"
     )
     where, md5 = run(python, "-c", code, cwd=tmp_path).splitlines()
     assert Path(where).is_relative_to(python.parents[1])
@@ -116,14 +112,4 @@ def test_a_command_says_what_is_missing_outside_a_checkout(python, tmp_path, com
 
 def test_a_chapter_runs_with_it(python, tmp_path):
     chapter = shutil.copy(CHAPTER, tmp_path)
-    run(
-        python,
-        "-m",
-        "pytest",
-        "-p",
-        "no:cacheprovider",
-        "--nbval",
-        "--nbval-current-env",
-        chapter,
-        cwd=tmp_path,
-    )
+    run(python, "-m", "pytest", "-p", "no:cacheprovider", "--nbval", "--nbval-current-env", chapter, cwd=tmp_path)

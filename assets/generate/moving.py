@@ -44,16 +44,11 @@ class Film:
 
     """
 
-    def __init__(
-        self, name: str, title: str, bounds: tuple[float, float, float, float], seconds: float
-    ) -> None:
+    def __init__(self, name: str, title: str, bounds: tuple[float, float, float, float], seconds: float) -> None:
         self.name, self.title, self.seconds = name, title, seconds
         left, bottom, right, top = bounds
         self.scale = min(WIDTH / (right - left), HEIGHT / (top - bottom))
-        self._origin = (
-            WIDTH / 2 - self.scale * (left + right) / 2,
-            HEIGHT / 2 + self.scale * (bottom + top) / 2,
-        )
+        self._origin = (WIDTH / 2 - self.scale * (left + right) / 2, HEIGHT / 2 + self.scale * (bottom + top) / 2)
         self._parts: list[str] = []
         self._css: list[str] = []
         self._colours: set[str] = set()
@@ -75,24 +70,15 @@ class Film:
         """Fill the picture."""
         self._parts.append(f'<rect width="{WIDTH}" height="{HEIGHT}" fill="{self.paint(colour)}"/>')
 
-    def path(
-        self, outlines: Iterable[Floats], *, fill: str = "", stroke: str = "", width: float = 1.0
-    ) -> None:
+    def path(self, outlines: Iterable[Floats], *, fill: str = "", stroke: str = "", width: float = 1.0) -> None:
         """Draw outlines (n, 2) [m] as one path: closed if filled."""
         self._parts.append(self._path(outlines, fill=fill, stroke=stroke, width=width))
 
     def _path(
-        self,
-        outlines: Iterable[Floats],
-        *,
-        fill: str = "",
-        stroke: str = "",
-        width: float = 1.0,
-        more: str = "",
+        self, outlines: Iterable[Floats], *, fill: str = "", stroke: str = "", width: float = 1.0, more: str = ""
     ) -> str:
         lines = [
-            "M" + "L".join(f"{x:g} {y:g}" for x, y in self.px(outline)) + ("Z" if fill else "")
-            for outline in outlines
+            "M" + "L".join(f"{x:g} {y:g}" for x, y in self.px(outline)) + ("Z" if fill else "") for outline in outlines
         ]
         style = f'fill="{self.paint(fill) if fill else "none"}"'
         if stroke:
@@ -106,9 +92,7 @@ class Film:
             if not len(each.outline()):
                 (x, y) = self.px(np.array([each.pose[:2]]))[0]
                 radius = self.scale * float(each.shape.radius)  # type: ignore[union-attr]
-                self._parts.append(
-                    f'<circle cx="{x:g}" cy="{y:g}" r="{radius:.1f}" fill="{self.paint("muted")}"/>'
-                )
+                self._parts.append(f'<circle cx="{x:g}" cy="{y:g}" r="{radius:.1f}" fill="{self.paint("muted")}"/>')
 
     def robot(self, times: Floats, poses: Floats, colour: str, size: float, *, trail: bool = True) -> None:
         """Draw a robot that drives along poses (n, 3), with its trail."""
@@ -124,9 +108,7 @@ class Film:
             self._css.append(
                 f"@keyframes {kind}t{{{steps}}}.{kind}t{{animation:{kind}t {self.seconds:g}s linear infinite}}"
             )
-            more = (
-                f' class="{kind}t" pathLength="1" stroke-dasharray="1" stroke-linejoin="round" opacity="0.7"'
-            )
+            more = f' class="{kind}t" pathLength="1" stroke-dasharray="1" stroke-linejoin="round" opacity="0.7"'
             self._parts.append(self._path([poses[:, :2]], stroke=colour, width=1.5, more=more))
         turns = -np.degrees(np.unwrap(poses[:, 2]))
         steps = "".join(
@@ -135,28 +117,20 @@ class Film:
         )
         radius = size * self.scale
         x, y = where[-1]
-        self._css.append(
-            f"@keyframes {kind}{{{steps}}}.{kind}{{animation:{kind} {self.seconds:g}s linear infinite}}"
-        )
+        self._css.append(f"@keyframes {kind}{{{steps}}}.{kind}{{animation:{kind} {self.seconds:g}s linear infinite}}")
         self._parts.append(
             f'<g class="{kind}" style="transform:translate({x:g}px,{y:g}px) rotate({turns[-1]:.0f}deg)">'
             f'<circle r="{radius:.1f}" fill="{self.paint(colour)}"/>'
             f'<path d="M0 0L{radius:.1f} 0" stroke="{self.paint("page")}" stroke-width="{max(radius / 3, 1):.1f}"/></g>'
         )
 
-    def appear(
-        self, outlines: Sequence[Floats], at: float, *, stroke: str, width: float = 1.0, fill: str = ""
-    ) -> None:
+    def appear(self, outlines: Sequence[Floats], at: float, *, stroke: str, width: float = 1.0, fill: str = "") -> None:
         """Draw outlines that appear at a share of the film and stay."""
         kind = f"{self.name}-a{len(self._css)}"
         p = 100 * at
         steps = f"0%,{p:.4g}%{{opacity:0}}{min(p + 2, 100):.4g}%,100%{{opacity:1}}"
-        self._css.append(
-            f"@keyframes {kind}{{{steps}}}.{kind}{{animation:{kind} {self.seconds:g}s linear infinite}}"
-        )
-        self._parts.append(
-            self._path(outlines, fill=fill, stroke=stroke, width=width, more=f' class="{kind}"')
-        )
+        self._css.append(f"@keyframes {kind}{{{steps}}}.{kind}{{animation:{kind} {self.seconds:g}s linear infinite}}")
+        self._parts.append(self._path(outlines, fill=fill, stroke=stroke, width=width, more=f' class="{kind}"'))
 
     def frames(self, frames: Sequence[Sequence[Floats]], *, stroke: str, width: float) -> None:
         """Draw one of `frames` after the other, each for the same time; the last one where nothing moves."""
@@ -234,15 +208,8 @@ def mapping() -> str:
         quiet = {"capture_output": True}
         started: Any = rosrun("rosmini_sim", "simulator", "_world:=room", graph=graph, **quiet)
         sim = started.instance()
-        roslaunch(
-            "turtlebot3_bringup", "turtlebot3_remote.launch", graph=graph, console=quiet, model="burger"
-        )
-        words = [
-            "__name:=gmapping",
-            "_base_frame:=base_footprint",
-            "_linearUpdate:=0.3",
-            "_angularUpdate:=0.4",
-        ]
+        roslaunch("turtlebot3_bringup", "turtlebot3_remote.launch", graph=graph, console=quiet, model="burger")
+        words = ["__name:=gmapping", "_base_frame:=base_footprint", "_linearUpdate:=0.3", "_angularUpdate:=0.4"]
         words += ["_map_update_interval:=2", "_xmin:=-5", "_ymin:=-5", "_xmax:=5", "_ymax:=5"]
         rosrun("gmapping", "slam_gmapping", *words, graph=graph, **quiet)
         wander(graph)
@@ -271,9 +238,7 @@ def drive_to_a_goal() -> Recording:
     goal.header.frame_id = "map"
     goal.pose.position.x, goal.pose.position.y, goal.pose.orientation.w = 2.5, 3.0, 1.0
     with Graph(strict=False) as graph:
-        roslaunch(
-            "rosmini_sim", "navigation.launch", graph=graph, console={"capture_output": True}, world="house"
-        )
+        roslaunch("rosmini_sim", "navigation.launch", graph=graph, console={"capture_output": True}, world="house")
         graph.run(2.0)
         recorder = Recorder(graph, layers=True)
         click = graph.node("rviz").publisher("move_base_simple/goal", type(goal), latch=True)
@@ -284,19 +249,14 @@ def drive_to_a_goal() -> Recording:
 
 def plan_of(recording: Recording) -> Floats:
     """The first global plan of a drive (n, 2) [m]."""
-    paths = (
-        m for _, topic, m in recording.messages if topic == "/move_base/NavfnROS/plan" and len(m.poses) > 9
-    )
+    paths = (m for _, topic, m in recording.messages if topic == "/move_base/NavfnROS/plan" and len(m.poses) > 9)
     return np.array([[p.pose.position.x, p.pose.position.y] for p in next(paths).poses[::8]])
 
 
 def goal_by_click(recording: Recording) -> str:
     """A click, a plan, and a robot that follows it."""
     film = Film(
-        "goal",
-        "A click sets a goal in a house; a plan appears, and the robot follows it.",
-        (-8.3, -5.3, 8.3, 5.3),
-        9,
+        "goal", "A click sets a goal in a house; a plan appears, and the robot follows it.", (-8.3, -5.3, 8.3, 5.3), 9
     )
     film.world(recording.world)
     film.appear([plan_of(recording)], 0.03, stroke="orange", width=2)
@@ -313,9 +273,7 @@ def goal_by_click(recording: Recording) -> str:
 
 def in_rviz(recording: Recording) -> str:
     """The same drive as RViz shows it: a grid, the map, the laser's points, the plan."""
-    film = Film(
-        "rviz", "RViz shows a robot with its laser scan, its plan and the map.", (-6.0, -1.6, 4.4, 4.9), 9
-    )
+    film = Film("rviz", "RViz shows a robot with its laser scan, its plan and the map.", (-6.0, -1.6, 4.4, 4.9), 9)
     film.background("#303030")
     grid = [np.array([[x, -2.0], [x, 5.0]]) for x in range(-7, 6)] + [
         np.array([[-7.0, y], [6.0, y]]) for y in range(-2, 6)
@@ -350,9 +308,7 @@ def ten_robots() -> str:
             wander(graph, f"/tb3_{i}")
         graph.run(40.0)
         recording = recorder.recording()
-    film = Film(
-        "ten", "Ten robots drive through a house, each by its own program.", (-8.3, -5.3, 8.3, 5.3), 10
-    )
+    film = Film("ten", "Ten robots drive through a house, each by its own program.", (-8.3, -5.3, 8.3, 5.3), 10)
     film.world(recording.world)
     colours = ("blue", "orange", "green", "purple", "sky", "vermilion")
     for i, robot in enumerate(recording.robots):

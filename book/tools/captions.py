@@ -17,9 +17,7 @@ from rosmini.core.errors import RosminiError, nearest
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-CAPTION = re.compile(
-    r'^<a id="(?P<label>[a-z0-9-]+)"></a>(?P<kind>Figure|Table) \d+: (?P<text>.*)$', re.MULTILINE
-)
+CAPTION = re.compile(r'^<a id="(?P<label>[a-z0-9-]+)"></a>(?P<kind>Figure|Table) \d+: (?P<text>.*)$', re.MULTILINE)
 """A caption, in the source of a page."""
 REFERENCE = re.compile(r"\[(?:Figure|Table) \d+\]\(#(?P<label>[a-z0-9-]+)\)")
 """A reference to a caption of the same page."""

@@ -43,10 +43,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument("--no-open", action="store_true", help="start the server, and open no browser")
     parser.add_argument(
-        "--port",
-        type=port_number,
-        default=8888,
-        help="the port to serve on (default: %(default)s, or the next free)",
+        "--port", type=port_number, default=8888, help="the port to serve on (default: %(default)s, or the next free)"
     )
     parser.add_argument(
         "--copy",
@@ -79,9 +76,7 @@ def unchanged(folder: Path) -> list[Path]:
     """The notebooks in `folder` that are as in the current commit of its git repository; none without git."""
 
     def ask(*command: str) -> set[str]:
-        done = subprocess.run(
-            ["git", "-C", str(folder), *command], capture_output=True, check=True, encoding="utf-8"
-        )
+        done = subprocess.run(["git", "-C", str(folder), *command], capture_output=True, check=True, encoding="utf-8")
         return {name for name in done.stdout.split("\0") if name.endswith(".ipynb")}
 
     try:

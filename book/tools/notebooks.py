@@ -65,9 +65,7 @@ UNSTABLE = {
     "a warning with a path": re.compile(r"Warning: .*\n\s+warnings\.warn"),
 }
 # Calls whose output nbval cannot compare.
-UNCOMPARABLE = re.compile(
-    r"\b(clear_output|display_id\s*=|interact\(|interactive\(|(?:widgets\.)?Output\(\))"
-)
+UNCOMPARABLE = re.compile(r"\b(clear_output|display_id\s*=|interact\(|interactive\(|(?:widgets\.)?Output\(\))")
 
 
 def read(path: Path) -> nbformat.NotebookNode:
@@ -96,11 +94,7 @@ def problems(notebook: nbformat.NotebookNode) -> Iterator[str]:
     if notebook.metadata.get("language_info") != LANGUAGE:
         yield "the notebook's language_info is not the one that `clean` stores"
     try:
-        wrong = [
-            text
-            for text, right in zip(prose(notebook), numbered(prose(notebook)), strict=True)
-            if text != right
-        ]
+        wrong = [text for text, right in zip(prose(notebook), numbered(prose(notebook)), strict=True) if text != right]
     except CaptionError as error:
         yield str(error)
     else:
@@ -113,9 +107,7 @@ def problems(notebook: nbformat.NotebookNode) -> Iterator[str]:
             if cell.execution_count is None:
                 found.append("was not executed")
             elif cell.execution_count != expected:
-                found.append(
-                    f"was executed as number {cell.execution_count}, not {expected}: run all, from the top"
-                )
+                found.append(f"was executed as number {cell.execution_count}, not {expected}: run all, from the top")
         yield from (f"cell {place} {problem}: {first_line(cell)!r}" for problem in found)
 
 
@@ -139,9 +131,7 @@ def cell_problems(cell: nbformat.NotebookNode) -> Iterator[str]:
     if not cell.source.strip():
         yield "is empty"
     yield from exemption_problems(cell)
-    if ("hide-input" in cell.metadata.get("tags", [])) != bool(
-        cell.metadata.get("jupyter", {}).get("source_hidden")
-    ):
+    if ("hide-input" in cell.metadata.get("tags", [])) != bool(cell.metadata.get("jupyter", {}).get("source_hidden")):
         yield "is folded in the book or in JupyterLab only: the tag hide-input and jupyter.source_hidden go together"
     uncomparable = UNCOMPARABLE.search(cell.source)
     if uncomparable:

@@ -38,9 +38,7 @@ MOST_VIEWERS = 6
 """Browsers draw only about eight WebGL pictures at a time: each one more takes the place of the oldest."""
 IN_SCRIPT = re.compile(r"\b(?:import\s*\(?|from|fetch\(|importScripts\(|require\()\s*[\"'](https?://[^\"']+)")
 # What the scripts of moving pictures have no use for, whatever the address.
-ASKING = re.compile(
-    r"\b(fetch\(|XMLHttpRequest|WebSocket|EventSource|sendBeacon|importScripts|import\(|connect\()"
-)
+ASKING = re.compile(r"\b(fetch\(|XMLHttpRequest|WebSocket|EventSource|sendBeacon|importScripts|import\(|connect\()")
 ADDRESS = re.compile(r"(?:https?|wss?)://[^\s\"'`)]+")
 # The names of XML's vocabularies look like addresses; nothing is fetched from there.
 NAMESPACES = {"http://www.w3.org/1999/xhtml", "http://www.w3.org/2000/svg"}
@@ -72,9 +70,7 @@ class Page(HTMLParser):
             self.pictures.append(given)
         elif tag == "title" and self.pictures:
             self.pictures[-1]["title"] = "yes"
-        self.problems += [
-            f"a local address in {tag} {name}" for name, value in given.items() if "127.0.0.1" in value
-        ]
+        self.problems += [f"a local address in {tag} {name}" for name, value in given.items() if "127.0.0.1" in value]
 
     def handle_endtag(self, tag: str) -> None:
         """Leave an element; a picture has to have a text by then."""
@@ -104,9 +100,7 @@ class Page(HTMLParser):
         for name in FETCHED.get(tag, ()):
             if ELSEWHERE.match(given.get(name, "")):
                 self.problems.append(f"{tag} {name} from elsewhere: {given[name]}")
-        self.problems += [
-            f"a style from elsewhere: {url}" for url in IN_STYLE.findall(given.get("style", ""))
-        ]
+        self.problems += [f"a style from elsewhere: {url}" for url in IN_STYLE.findall(given.get("style", ""))]
         if given.get("srcdoc"):
             inner = Page()
             inner.feed(given["srcdoc"])
@@ -129,9 +123,7 @@ def _missing_scripts(page: str, static: Path) -> Iterator[str]:
     names = {name for found in SHARED_SCRIPTS.findall(page) for name in json.loads(found)}
     if VIEWER_CALL in page:
         names.add(MESHCAT)
-    yield from (
-        f"loads {name}, which is not in _static" for name in sorted(names) if not (static / name).is_file()
-    )
+    yield from (f"loads {name}, which is not in _static" for name in sorted(names) if not (static / name).is_file())
 
 
 def _around(text: str, found: str) -> str:

@@ -35,9 +35,7 @@ def length(notebook: nbformat.NotebookNode) -> tuple[int, int]:
 def minutes(notebook: nbformat.NotebookNode) -> int:
     """Estimate how long a chapter takes, exercises included [min], rounded up to five (DESIGN section 7)."""
     words, cells = length(notebook)
-    total = (
-        words / WORDS_A_MINUTE + cells * MINUTES_A_CELL + len(solutions.stubs(notebook)) * MINUTES_AN_EXERCISE
-    )
+    total = words / WORDS_A_MINUTE + cells * MINUTES_A_CELL + len(solutions.stubs(notebook)) * MINUTES_AN_EXERCISE
     return -5 * int(-total // 5)
 
 
@@ -45,9 +43,7 @@ def add_directions(notebook: nbformat.NotebookNode, name: str, url: str) -> None
     """Put a cell before a notebook, in place, that says how to get the library and the other files it needs."""
     from nbformat.v4 import new_markdown_cell
 
-    copy = (
-        f"a copy of the book's repository (`git clone {url}`)" if url else "a copy of the book's repository"
-    )
+    copy = f"a copy of the book's repository (`git clone {url}`)" if url else "a copy of the book's repository"
     text = (
         f"*To run this notebook you need {copy} and Python 3.11 or newer. In that folder, type "
         f"`pip install uv && uv run rosmini lab` and open `{name}`. "

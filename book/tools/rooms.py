@@ -56,10 +56,7 @@ def rows(arrows: dict[str, list[str]]) -> list[list[str]]:
         return max((level(other) + 1 for other in arrows[room]), default=0)
 
     levels = {room: level(room) for room in arrows}
-    return [
-        [room for room in arrows if levels[room] == each]
-        for each in sorted(set(levels.values()), reverse=True)
-    ]
+    return [[room for room in arrows if levels[room] == each] for each in sorted(set(levels.values()), reverse=True)]
 
 
 @cache
@@ -72,11 +69,7 @@ def code_lines(place: Path) -> int:
 def _code_lines(source: str) -> int:
     docstrings: set[int] = set()
     for node in ast.walk(ast.parse(source)):
-        if (
-            isinstance(node, ast.Expr)
-            and isinstance(node.value, ast.Constant)
-            and isinstance(node.value.value, str)
-        ):
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str):
             docstrings.update(range(node.lineno, (node.end_lineno or node.lineno) + 1))
     code: set[int] = set()
     for token in tokenize.generate_tokens(io.StringIO(source).readline):
@@ -89,11 +82,7 @@ def kernel(checkout: Path) -> list[Path]:
     """Return the modules of the kernel, in reading order."""
     graph = checkout / "rosmini" / "core" / "graph"
     text = ast.get_docstring(ast.parse((graph / "__init__.py").read_text(encoding="utf-8"))) or ""
-    names = [
-        name
-        for line in re.findall(r"^\d\. .*$", text, re.MULTILINE)
-        for name in re.findall(r"``(\w+)``", line)
-    ]
+    names = [name for line in re.findall(r"^\d\. .*$", text, re.MULTILINE) for name in re.findall(r"``(\w+)``", line)]
     return [graph / f"{name}.py" for name in names]
 
 

@@ -24,7 +24,5 @@ def scripts(notebook: nbformat.NotebookNode) -> dict[str, str]:
         if cell.cell_type == "code"
     )
     return {
-        f"cell_{place}_{match[1]}": f"#!/usr/bin/env python3\n{match[2].rstrip()}\n"
-        for place, match in found
-        if match
+        f"cell_{place}_{match[1]}": f"#!/usr/bin/env python3\n{match[2].rstrip()}\n" for place, match in found if match
     }

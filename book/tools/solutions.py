@@ -28,11 +28,7 @@ class SolutionError(RosminiError):
 
 def stubs(notebook: nbformat.NotebookNode) -> dict[str, int]:
     """The places of the stub cells (from 0), by the name of the exercise."""
-    found = (
-        (STUB.match(cell.source), place)
-        for place, cell in enumerate(notebook.cells)
-        if cell.cell_type == "code"
-    )
+    found = ((STUB.match(cell.source), place) for place, cell in enumerate(notebook.cells) if cell.cell_type == "code")
     return {match[2]: place for match, place in found if match}
 
 

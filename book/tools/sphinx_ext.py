@@ -109,9 +109,7 @@ def gather_quote(tag: nodes.Node) -> None:
     Without the second line, nothing is replaced.
     """
     siblings, start = tag.parent.children, tag.parent.index(tag)
-    end = next(
-        (i for i in range(start, len(siblings)) if siblings[i].astext().strip() == "</blockquote>"), None
-    )
+    end = next((i for i in range(start, len(siblings)) if siblings[i].astext().strip() == "</blockquote>"), None)
     if end is not None:
         quote = nodes.block_quote("", *siblings[start + 1 : end])
         tag.parent[start : end + 1] = [quote]
@@ -227,8 +225,7 @@ def number_chapters(app: Sphinx, env: BuildEnvironment) -> list[str]:
         part += 1
         for _, docname in toctree["entries"]:
             env.toc_secnumbers[docname] = {
-                anchor: (part, *number) if number else number
-                for anchor, number in env.toc_secnumbers[docname].items()
+                anchor: (part, *number) if number else number for anchor, number in env.toc_secnumbers[docname].items()
             }
             numbered = [*env.tocs[docname].findall(nodes.reference), env.titles[docname]]
             for node in numbered:

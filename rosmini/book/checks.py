@@ -269,11 +269,7 @@ def expect_heard(publisher: Publisher) -> None:
     """Expect a subscriber of the topic of `publisher`."""
     kind = publisher.message_class._type.rpartition("/")[2]
     topic = publisher.topic
-    expect(
-        publisher.num_connections(),
-        f"No node subscribes to {topic}.",
-        f"call subscriber(...) with type {kind}",
-    )
+    expect(publisher.num_connections(), f"No node subscribes to {topic}.", f"call subscriber(...) with type {kind}")
 
 
 def check(name: str, *answer: Any) -> Verdict:

@@ -387,11 +387,7 @@ def _without_our_frames(trace: TracebackType | None, *, keep_last: bool) -> Trac
     result: TracebackType | None = None
     for entry in reversed(entries):
         file = Path(entry.tb_frame.f_code.co_filename)
-        users = not file.is_relative_to(ours) and file.parts[-3:] != (
-            "IPython",
-            "core",
-            "interactiveshell.py",
-        )
+        users = not file.is_relative_to(ours) and file.parts[-3:] != ("IPython", "core", "interactiveshell.py")
         if users or keep_last:
             result = TracebackType(result, entry.tb_frame, entry.tb_lasti, entry.tb_lineno)
         keep_last = keep_last and not users

@@ -144,9 +144,7 @@ class Element:
         name = what or f"<{self.tag}>"
         words = text.split()
         if count is not None and len(words) != count:
-            raise self.error(
-                f"{name} takes {_plural(count, 'number')}, not {len(words)}: {shown(text.strip())}"
-            )
+            raise self.error(f"{name} takes {_plural(count, 'number')}, not {len(words)}: {shown(text.strip())}")
         values = []
         for word in words:
             try:
@@ -221,9 +219,7 @@ def parse(
     return builder.root
 
 
-_LATE_DECLARATION = re.compile(
-    rb"\A((?:\xef\xbb\xbf)?\s*(?:<!--(?:(?!-->)[\s\S])*-->\s*)*)(<\?xml\s[^<>]*\?>)"
-)
+_LATE_DECLARATION = re.compile(rb"\A((?:\xef\xbb\xbf)?\s*(?:<!--(?:(?!-->)[\s\S])*-->\s*)*)(<\?xml\s[^<>]*\?>)")
 
 
 def parse_file(
@@ -285,10 +281,7 @@ def _reason(message: str, column: int, text: bytes, builder: _Builder) -> str:
         inner = builder.open[-1][0]
         return f"the file ends, but <{inner.tag}> of line {inner.line} is still open"
     if "declaration not at start" in message:
-        return (
-            "<?xml ...?> must be the very first thing in the file: nothing may precede it, not even a "
-            "blank line"
-        )
+        return "<?xml ...?> must be the very first thing in the file: nothing may precede it, not even a blank line"
     return f"this is not XML: {message} at column {column + 1}"
 
 

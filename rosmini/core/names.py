@@ -54,9 +54,7 @@ def check_name(name: str, what: str = "name") -> str:
     """
     if isinstance(name, str) and GRAPH_NAME.fullmatch(name):
         return name
-    raise _illegal(
-        name, what, first="~/", rest="/_", rule="a letter, '/' or '~', then letters, digits, '_' and '/'"
-    )
+    raise _illegal(name, what, first="~/", rest="/_", rule="a letter, '/' or '~', then letters, digits, '_' and '/'")
 
 
 def check_base_name(name: str, what: str = "node name") -> str:
@@ -101,11 +99,7 @@ def _illegal(name: object, what: str, *, first: str, rest: str, rule: str) -> Il
         return IllegalName(f"a {what} must not be empty: allowed are {rule}")
     bad = 0
     if _is_letter(name[0]) or name[0] in first:
-        bad = next(
-            i
-            for i, char in enumerate(name)
-            if i and not (char.isascii() and (char.isalnum() or char in rest))
-        )
+        bad = next(i for i, char in enumerate(name) if i and not (char.isascii() and (char.isalnum() or char in rest)))
     reason = _reason(name[bad], bad == 0, first, rest)
     shown = [repr(char)[1:-1] if not char.isprintable() else char for char in name]
     caret = " " * len("".join(shown[:bad])) + "^"
@@ -121,9 +115,7 @@ def _reason(char: str, at_start: bool, first: str, rest: str) -> str:
     if at_start and char.isascii() and (char.isdigit() or char in rest):
         return f"it starts with {shown}"
     if char in first or (char == "~" and not at_start):
-        return (
-            f"{shown} may only be the first character" if first else f"{shown} is for names with a namespace"
-        )
+        return f"{shown} may only be the first character" if first else f"{shown} is for names with a namespace"
     if char == "/":
         return "'/' is for names with a namespace: give the namespace apart (__ns:=)"
     if char in "- .":

@@ -117,9 +117,7 @@ class Parameters:
             span = ", ".join(about["choices"])
             span = span if low is None and high is None else f"{_shown(low)} ... {_shown(high)}".strip()
             default = "" if declared.default is None else _listed(declared.default)
-            rows.append(
-                (label + declared.name, _spelled(kind), default, span, about["unit"], about["meaning"])
-            )
+            rows.append((label + declared.name, _spelled(kind), default, span, about["unit"], about["meaning"]))
         return rows
 
 
@@ -170,9 +168,7 @@ def _converted(value: Any, declared: Field[Any], kind: Any, place: Place, *, lim
             return option(**_read(option, value, place))
         if isinstance(value, list) and get_origin(option) is tuple:
             item = get_args(option)[0]
-            return tuple(
-                _converted(each, declared, item, _element(place, number)) for number, each in enumerate(value)
-            )
+            return tuple(_converted(each, declared, item, _element(place, number)) for number, each in enumerate(value))
     scalars = tuple(option for option in options if option in _SCALARS)
     value = expected(place.name, rounded(value) if scalars == (int,) else value, scalars, _spelled(kind))
     if limited:

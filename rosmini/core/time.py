@@ -26,9 +26,7 @@ class TVal:
 
     __slots__ = ("nsecs", "secs")
     _slot_types: ClassVar[list[str]] = ["int32", "int32"]  # tools print times like messages
-    _peer: ClassVar[
-        type[TVal]
-    ]  # what a value may be compared with; set below each class, which has no name before
+    _peer: ClassVar[type[TVal]]  # what a value may be compared with; set below each class, which has no name before
 
     secs: int
     nsecs: int

@@ -95,9 +95,7 @@ class Loader(Composer, SafeConstructor, Resolver):
             self.flatten_mapping(node)
             keys = [key for key, _ in node.value if key.tag != "tag:yaml.org,2002:str"]
             if len(keys) > 1 and collide(self._hashable(key, deep) for key in keys):
-                raise yaml.MarkedYAMLError(
-                    problem="too many keys with the same hash", problem_mark=node.start_mark
-                )
+                raise yaml.MarkedYAMLError(problem="too many keys with the same hash", problem_mark=node.start_mark)
         return super().construct_mapping(node, deep)
 
     def _hashable(self, node: Any, deep: bool) -> Hashable:
@@ -134,9 +132,7 @@ def documents(
     except (yaml.MarkedYAMLError, yaml.reader.ReaderError) as error:
         raise _no_yaml(error, source, failure) from error
     except RecursionError as error:
-        raise failure(
-            "this is not YAML: its lists and mappings are nested too deeply", source, None
-        ) from error
+        raise failure("this is not YAML: its lists and mappings are nested too deeply", source, None) from error
     finally:
         if reading is not None:
             reading.dispose()
@@ -157,9 +153,7 @@ def children(node: yaml.Node) -> Iterator[tuple[str, yaml.Node, yaml.Node]]:
             yield f"[{number}]", value, value
 
 
-def _no_yaml(
-    error: yaml.MarkedYAMLError | yaml.reader.ReaderError, source: str, failure: Failure
-) -> Exception:
+def _no_yaml(error: yaml.MarkedYAMLError | yaml.reader.ReaderError, source: str, failure: Failure) -> Exception:
     if isinstance(error, yaml.MarkedYAMLError):
         mark = error.problem_mark or error.context_mark
         text = ", ".join(part for part in (error.context, error.problem) if part)
@@ -186,7 +180,5 @@ def _refuse_endless(node: yaml.Node, source: str, failure: Failure) -> None:
 
     if size(node) > MAX_VALUES:
         raise failure(
-            f"this document has {size(node)} values with its aliases; {MAX_VALUES} are allowed",
-            source,
-            line_of(node),
+            f"this document has {size(node)} values with its aliases; {MAX_VALUES} are allowed", source, line_of(node)
         )

@@ -89,8 +89,6 @@ def _read(cls: Any, data: bytes) -> Any:
 
 def _missing(name: str, function: str) -> Callable[..., None]:
     def refuse(self: Any, *_: Any) -> None:  # noqa: ARG001 - a method
-        raise SerializationError(
-            f"the message class {name} is written by hand and has no {function}(): write one"
-        )
+        raise SerializationError(f"the message class {name} is written by hand and has no {function}(): write one")
 
     return refuse

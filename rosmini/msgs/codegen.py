@@ -70,9 +70,7 @@ def _named(code: CodeType, names: dict[str, str]) -> CodeType:
     return code.replace(
         co_names=named(code.co_names),
         co_varnames=named(code.co_varnames),
-        co_consts=tuple(
-            _named(each, names) if isinstance(each, CodeType) else each for each in code.co_consts
-        ),
+        co_consts=tuple(_named(each, names) if isinstance(each, CodeType) else each for each in code.co_consts),
     )
 
 
@@ -203,8 +201,7 @@ class Generator:
     def emit_unpacked(self, run: list[Leaf], values: str, depth: int) -> None:
         targets = [f"{node.target}.{self.slot(name)}" for node, name, _, _ in run]
         self.emit(
-            f"{', '.join(targets)}, = {values}" if len(targets) == 1 else f"{', '.join(targets)} = {values}",
-            depth,
+            f"{', '.join(targets)}, = {values}" if len(targets) == 1 else f"{', '.join(targets)} = {values}", depth
         )
         for target, (*_, kind) in zip(targets, run, strict=True):
             if kind == "bool":
@@ -268,15 +265,11 @@ class Generator:
         if field.base in BYTES and field.size is not None:
             return f"{self.use('_bytes', bytes)}({field.size})"
         if field.base in FORMATS or field.base == "string":
-            single = {"float32": "0.0", "float64": "0.0", "string": "''", "bool": "False"}.get(
-                field.base, "0"
-            )
+            single = {"float32": "0.0", "float64": "0.0", "string": "''", "bool": "False"}.get(field.base, "0")
             return single if field.size is None else f"[{single}] * {field.size}"
         cls = self.class_of(self.cls, field.base)
         single = f"{self.use('_class', cls)}()"
-        return (
-            single if field.size is None else f"[{single} for _ in {self.use('_range', range)}({field.size})]"
-        )
+        return single if field.size is None else f"[{single} for _ in {self.use('_range', range)}({field.size})]"
 
     def _freeze(self) -> None:
         self.emit("def freeze(m, header=None):", 0)
@@ -314,10 +307,7 @@ class Generator:
 
     def emit_explained(self) -> None:
         self.emit(f"except {self.use('ERRORS', fields.ERRORS)} as error:")
-        self.emit(
-            f"raise {self.use('explain', fields.explain)}({self.use('CLS', self.cls)}, m, error) from error",
-            2,
-        )
+        self.emit(f"raise {self.use('explain', fields.explain)}({self.use('CLS', self.cls)}, m, error) from error", 2)
 
     def _thaw(self) -> None:
         self.emit(f"def {self.purpose}(m):", 0)
@@ -487,11 +477,7 @@ def _freeze_duration(value: Any) -> Duration:
 
 
 def _arguments(
-    message: Any,
-    args: tuple[Any, ...],
-    names: tuple[str, ...],
-    values: tuple[Any, ...],
-    unknown: dict[str, Any],
+    message: Any, args: tuple[Any, ...], names: tuple[str, ...], values: tuple[Any, ...], unknown: dict[str, Any]
 ) -> Any:
     """Return the values of the fields for a constructor call by position, or raise for a wrong call."""
     return message._positional(args, dict(zip(names, values, strict=True)), unknown)

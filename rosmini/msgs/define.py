@@ -53,9 +53,7 @@ def define_action(name: str, text: str) -> tuple[type[Any], type[Any], type[Any]
     return own[f"{name}Action"], own[f"{name}Goal"], own[f"{name}Result"], own[f"{name}Feedback"]
 
 
-def _class_of(
-    spec: MessageSpec, folder: str, own: Mapping[str, type[Message]] | None = None
-) -> type[Message]:
+def _class_of(spec: MessageSpec, folder: str, own: Mapping[str, type[Message]] | None = None) -> type[Message]:
     """Make a class; its nested types may be in ``own`` or have files."""
     known, mine, nested = registry(), own or {}, {}
 

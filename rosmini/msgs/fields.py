@@ -30,9 +30,7 @@ ERRORS = (struct.error, TypeError, ValueError, OverflowError, AttributeError, Se
 
 DTYPES = {
     name: np.dtype(
-        "?"
-        if name == "bool"
-        else f"<{'f' if code in 'fd' else 'iu'[code.isupper()]}{struct.calcsize('<' + code)}"
+        "?" if name == "bool" else f"<{'f' if code in 'fd' else 'iu'[code.isupper()]}{struct.calcsize('<' + code)}"
     )
     for name, code in FORMATS.items()
 }
@@ -182,9 +180,7 @@ def check_field(field: Field, path: str, value: Any, nested: type[MessageContrac
         _check_value(nested, field, path, value)
         return
     if isinstance(value, (str, dict)) or (isinstance(value, bytes) and field.base not in BYTES):
-        raise SerializationError(
-            f"field {path} must be a list or tuple type, not {_shown(value)} [{field.type}]"
-        )
+        raise SerializationError(f"field {path} must be a list or tuple type, not {_shown(value)} [{field.type}]")
     try:
         elements = list(value)
     except TypeError:
@@ -223,9 +219,7 @@ def _check_text(path: str, value: Any) -> None:
     try:
         value.encode()
     except UnicodeEncodeError as error:
-        raise SerializationError(
-            f"field {path} cannot be written as UTF-8: {error.reason} [string]"
-        ) from None
+        raise SerializationError(f"field {path} cannot be written as UTF-8: {error.reason} [string]") from None
 
 
 def _check_number(kind: str, path: str, value: Any) -> None:

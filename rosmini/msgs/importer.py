@@ -56,9 +56,7 @@ class _DefinitionsModule(ModuleType):
     """``<package>.msg`` or ``<package>.srv``: its attributes are the message or service classes."""
 
     def __init__(self, name: str, package: str, kind: str) -> None:
-        super().__init__(
-            name, f"The {'messages' if kind == 'msg' else 'services'} of the ROS package {package}."
-        )
+        super().__init__(name, f"The {'messages' if kind == 'msg' else 'services'} of the ROS package {package}.")
         self.__dict__["_package"], self.__dict__["_kind"] = package, kind
 
     @property
@@ -69,9 +67,7 @@ class _DefinitionsModule(ModuleType):
         if self._kind == "msg":
             return registry().messages(self._package)
         services = registry().services(self._package)
-        return sorted(
-            {*services, *(f"{name}{half}" for name in services for half in ("Request", "Response"))}
-        )
+        return sorted({*services, *(f"{name}{half}" for name in services for half in ("Request", "Response"))})
 
     def __dir__(self) -> list[str]:
         return [*self._names(), "__name__", "__doc__"]
@@ -83,9 +79,7 @@ class _DefinitionsModule(ModuleType):
         full_name = f"{self._package}/{name}"
         if name not in self._names():
             if not name[:1].isupper():
-                raise AttributeError(
-                    f"module '{self.__name__}' has no attribute '{name}'", name=name, obj=self
-                )
+                raise AttributeError(f"module '{self.__name__}' has no attribute '{name}'", name=name, obj=self)
             kind = "message" if self._kind == "msg" else "service"
             hint = nearest(name, self._names()) or f"it has {', '.join(self._names()[:12]) or 'none'}"
             raise UnknownImport(f"package '{self._package}' has no {kind} type '{name}': {hint}")
@@ -112,9 +106,7 @@ class _PackageModule(ModuleType):
             return import_module(f"{self.__name__}.{name}")
         if name[:1].isupper():  # a type, as in `from std_msgs import String` and `std_msgs.String`
             hint = how_to_import(f"{self._package}.{name}").partition(" and give")[0]
-            where = "in its modules " + " and ".join(
-                f"{self._package}.{kind}" for kind in _kinds(self._package)
-            )
+            where = "in its modules " + " and ".join(f"{self._package}.{kind}" for kind in _kinds(self._package))
             raise UnknownImport(
                 f"the types of package '{self._package}' are {where}: {hint or f'none is called {name}'}"
             )
@@ -124,9 +116,7 @@ class _PackageModule(ModuleType):
 def _kinds(package: str) -> list[str]:
     """Return the submodules of a package."""
     found = registry()
-    return [
-        kind for kind, names in (("msg", found.messages(package)), ("srv", found.services(package))) if names
-    ]
+    return [kind for kind, names in (("msg", found.messages(package)), ("srv", found.services(package))) if names]
 
 
 class _DefinitionsLoader(Loader):
@@ -185,14 +175,10 @@ class _OwnFinder(MetaPathFinder):
             if own is not None and own.loader is not None and own.origin is not None:
                 return None  # a module of ours, such as rosmini.msgs.registry
             source = registry().source
-            if source.has_package(package) or any(
-                source.names(package, kind) for kind in ("msg", "srv", "action")
-            ):
+            if source.has_package(package) or any(source.names(package, kind) for kind in ("msg", "srv", "action")):
                 return _spec(fullname, package, None)
             hint = nearest(package, source.packages()) or "is it on ROS_PACKAGE_PATH?"
-            raise UnknownPackageImport(
-                f"no package '{package}' defines messages or services: {hint}", name=fullname
-            )
+            raise UnknownPackageImport(f"no package '{package}' defines messages or services: {hint}", name=fullname)
         if kind in _kinds(package):
             return _spec(fullname, package, kind)
         there = " and ".join(f"{package}.{each}" for each in _kinds(package))
@@ -240,9 +226,7 @@ class _LastFinder(MetaPathFinder):
         if any(source.names(fullname, kind) for kind in ("msg", "srv", "action")):
             return _spec(fullname, fullname, None)
         hint = nearest(fullname, source.packages()) or "is it on ROS_PACKAGE_PATH?"
-        raise UnknownPackageImport(
-            f"no package '{fullname}' defines messages or services: {hint}", name=fullname
-        )
+        raise UnknownPackageImport(f"no package '{fullname}' defines messages or services: {hint}", name=fullname)
 
 
 def _is_real(fullname: str, path: Sequence[str] | None, target: ModuleType | None) -> bool:
@@ -265,9 +249,7 @@ def install(*, shadow: bool = False) -> None:
 
 def uninstall() -> None:
     """Undo :func:`install`: remove the finders and the modules that they loaded."""
-    sys.meta_path[:] = [
-        finder for finder in sys.meta_path if not isinstance(finder, (_TopLevelFinder, _LastFinder))
-    ]
+    sys.meta_path[:] = [finder for finder in sys.meta_path if not isinstance(finder, (_TopLevelFinder, _LastFinder))]
     ours = (_PackageModule, _DefinitionsModule)
     for name, module in list(sys.modules.items()):
         if isinstance(module, ours) and not name.startswith(f"{MODULE_PREFIX}."):

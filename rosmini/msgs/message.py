@@ -37,9 +37,7 @@ class _Compiled:
 
         home = next((cls for cls in owner.__mro__ if "_spec" in cls.__dict__), None)
         if home is None:  # help() and inspect also look at the base classes
-            raise AttributeError(
-                f"{owner.__name__} has no {self.name}: it is not the class of a message type"
-            )
+            raise AttributeError(f"{owner.__name__} has no {self.name}: it is not the class of a message type")
         function = compile_function(home, self.name.removeprefix("_"))
         setattr(home, self.name, staticmethod(function))
         return function
@@ -178,9 +176,7 @@ class Message(MessageContract):
             if name == "_connection_header":
                 return None  # not received from anyone
             if name.startswith("_"):
-                raise AttributeError(
-                    f"'{type(self).__name__}' object has no attribute '{name}'", name=name, obj=self
-                )
+                raise AttributeError(f"'{type(self).__name__}' object has no attribute '{name}'", name=name, obj=self)
             raise self._no_such_field(name)
 
     def _no_such_field(self, name: str) -> AttributeError:
@@ -191,9 +187,7 @@ class Message(MessageContract):
         problem = f"{name} is not an attribute of {type(self).__name__} ({self._type}): {help_text}"
         return AttributeError(problem, name=name, obj=self)
 
-    def _positional(
-        self, args: tuple[Any, ...], given: dict[str, Any], unknown: dict[str, Any]
-    ) -> Sequence[Any]:
+    def _positional(self, args: tuple[Any, ...], given: dict[str, Any], unknown: dict[str, Any]) -> Sequence[Any]:
         """Return the field values of a constructor call by position; raise genpy's errors for a wrong call."""
         if args and (unknown or any(value is not None for value in given.values())):
             raise TypeError("Message constructor may only use args OR keywords, not both")
@@ -201,9 +195,7 @@ class Message(MessageContract):
             raise self._no_such_field(name)
         if len(args) != len(given):
             fields = ", ".join(given) or "(none)"
-            problem = (
-                f"{type(self).__name__} takes all of its {len(given)} fields by position, or some by keyword"
-            )
+            problem = f"{type(self).__name__} takes all of its {len(given)} fields by position, or some by keyword"
             raise TypeError(f"Invalid number of arguments: {problem}; given: {len(args)}, fields: {fields}")
         return args
 
@@ -247,12 +239,7 @@ def _first_init(self: Message, /, *args: Any, **kwds: Any) -> None:
 
 
 def make_message_class(
-    spec: MessageSpec,
-    nested: dict[str, type[Message]],
-    registry: object,
-    md5sum: str,
-    text: str,
-    module: str,
+    spec: MessageSpec, nested: dict[str, type[Message]], registry: object, md5sum: str, text: str, module: str
 ) -> type[Message]:
     """Make the class for ``spec``; ``nested`` contains the classes of its fields by type name.
 

@@ -149,9 +149,7 @@ class Registry:
 
     def messages(self, package: str) -> list[str]:
         """Return the names of a package's messages, including those of actions, sorted, without parsing them."""
-        derived = [
-            f"{name}{suffix}" for name in self.source.names(package, "action") for suffix in ACTION_SUFFIXES
-        ]
+        derived = [f"{name}{suffix}" for name in self.source.names(package, "action") for suffix in ACTION_SUFFIXES]
         return sorted({*self.source.names(package, "msg"), *derived})
 
     def services(self, package: str) -> list[str]:
@@ -187,9 +185,7 @@ class Registry:
         if name in self._messages:
             return self._messages[name]
         spec = self.definition(name)
-        nested = {
-            field.base: self._make_message_class(field.base) for field in spec.fields if not field.builtin
-        }
+        nested = {field.base: self._make_message_class(field.base) for field in spec.fields if not field.builtin}
         folder = "srv" if self._is_half_of_service(spec) else "msg"
         self._messages[name] = make_message_class(
             spec,
@@ -227,9 +223,7 @@ class Registry:
                 hint = nearest(field.base.removeprefix(f"{package}/"), known)
                 if field.base == f"{package}/Header":
                     hint = "write std_msgs/Header"
-                raise spec.error(
-                    field.line, f"unknown type '{field.base}': {hint}" if hint else str(error)
-                ) from error
+                raise spec.error(field.line, f"unknown type '{field.base}': {hint}" if hint else str(error)) from error
             except UnknownPackage as error:
                 raise spec.error(field.line, str(error)) from error
         self._measures[name] = measure(spec, self._measures.__getitem__)
@@ -257,9 +251,7 @@ class Registry:
     @staticmethod
     def _split(name: str, what: str) -> tuple[str, str]:
         if not is_type_name(name):
-            raise UnknownType(
-                f"{shown(name)} is no {what} type: it is written package/Type, as in std_msgs/String"
-            )
+            raise UnknownType(f"{shown(name)} is no {what} type: it is written package/Type, as in std_msgs/String")
         package, _, short = name.partition("/")
         return package, short
 
@@ -277,18 +269,14 @@ class Registry:
     def _unknown(self, what: str, name: str) -> UnknownType | UnknownPackage:
         package, short = self._split(name, what)
         packages = self.source.packages()
-        kind = {"message": self.messages, "service": self.services}.get(
-            what, lambda p: self.source.names(p, "action")
-        )
+        kind = {"message": self.messages, "service": self.services}.get(what, lambda p: self.source.names(p, "action"))
         if package not in packages:
             everywhere = [f"{owner}/{other}" for owner in packages for other in kind(owner) if other == short]
             hint = nearest(package, packages) or (
                 f"{short} is defined by {', '.join(everywhere)}" if everywhere else ""
             )
             hint = hint or "is it on ROS_PACKAGE_PATH?"
-            return UnknownPackage(
-                f"{what} type {name}: no package '{package}' defines messages or services: {hint}"
-            )
+            return UnknownPackage(f"{what} type {name}: no package '{package}' defines messages or services: {hint}")
         names = kind(package)
         hint = nearest(short, names)
         elsewhere = [f"{owner}/{short}" for owner in packages if owner != package and short in kind(owner)]

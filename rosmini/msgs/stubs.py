@@ -12,9 +12,7 @@ if TYPE_CHECKING:
     from .registry import Registry
 
 
-def package_stubs(
-    registry: Registry, package: str, head: str, module_of: Callable[[str], str]
-) -> dict[str, str]:
+def package_stubs(registry: Registry, package: str, head: str, module_of: Callable[[str], str]) -> dict[str, str]:
     """Return the stub files of a package, by their path in its folder; none if it has no definitions.
 
     ``head`` is their first line; ``module_of`` returns the module that contains another package's stubs. Raises as
@@ -33,9 +31,7 @@ def package_stubs(
     return files
 
 
-def _module(
-    registry: Registry, messages: list[str], services: list[str], module_of: Callable[[str], str]
-) -> str:
+def _module(registry: Registry, messages: list[str], services: list[str], module_of: Callable[[str], str]) -> str:
     specs = [registry.definition(name) for name in messages]
     others: set[str] = set()
     own_module = "srv" if services else "msg"
@@ -59,9 +55,7 @@ def _module(
 
 def _message(spec: MessageSpec, own_module: str, others: set[str]) -> str:
     lines = [f"class {spec.short_name}(_Message):"]
-    lines += [
-        f"    {constant.name}: ClassVar[{type(constant.value).__name__}]" for constant in spec.constants
-    ]
+    lines += [f"    {constant.name}: ClassVar[{type(constant.value).__name__}]" for constant in spec.constants]
     types = [(field.name, *_types(field, spec.package, own_module, others)) for field in spec.fields]
     lines += [f"    {name}: {read}" for name, read, _ in types]
     by_position = ", ".join(f"{name}: {write} | None" for name, _, write in types)

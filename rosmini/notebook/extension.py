@@ -50,9 +50,7 @@ def unload(shell: Any) -> None:
     if not is_loaded(shell):
         return
     if nodes := [name for name in session_of(shell).graph.nodes if name != "/rosout"]:
-        print(
-            f"rosmini: the graph of this notebook ends, and these nodes with it: {', '.join(sorted(nodes))}"
-        )
+        print(f"rosmini: the graph of this notebook ends, and these nodes with it: {', '.join(sorted(nodes))}")
     shell.events.unregister("pre_run_cell", session_of(shell).begin_cell)
     atexit.unregister(end_session)
     end_session(shell)
@@ -99,9 +97,7 @@ def roscore(session: Session, line: str) -> None:
     Raises ``UsageError`` for arguments.
     """
     if line.strip():
-        raise UsageError(
-            f"%roscore takes no arguments, not {line.strip()!r}: in a notebook it only starts a new graph"
-        )
+        raise UsageError(f"%roscore takes no arguments, not {line.strip()!r}: in a notebook it only starts a new graph")
     session.attach()
     session.begin()
     session.say(f"ROS_MASTER_URI={session.graph.master_uri}\nstarted core service [/rosout]")

@@ -81,9 +81,7 @@ def launch(session: Session, line: str, cell: str) -> None:
     """
     name = _the_word(line, "%%launch NAME.launch")
     if not name.endswith(".launch"):
-        raise UsageError(
-            f"%%launch writes a launch file: call it {name.partition('.')[0]}.launch, not {name}"
-        )
+        raise UsageError(f"%%launch writes a launch file: call it {name.partition('.')[0]}.launch, not {name}")
     session.package.file("launch", name)
     for complaint in _complaints(name, cell):
         session.say(f"WARNING: {complaint}")
@@ -133,11 +131,7 @@ def _check(package: str, kind: str, name: str, cell: str) -> None:
 
 def _meaning(text: str) -> list[str]:
     """Return the lines of a definition without comments and extra spaces."""
-    return [
-        " ".join(line.partition("#")[0].split())
-        for line in text.splitlines()
-        if line.partition("#")[0].strip()
-    ]
+    return [" ".join(line.partition("#")[0].split()) for line in text.splitlines() if line.partition("#")[0].strip()]
 
 
 def _the_word(line: str, usage: str) -> str:

@@ -135,9 +135,7 @@ def _start_script(session: Session, path: Path, title: str, given: Words, text: 
 
     source = path.read_text(encoding="utf-8", errors="replace") if text is None else text
     session.attach()
-    session.runs.start(
-        RunKey.of(str(path), given.args), title, make, may_print=_PRINTS.search(source) is not None
-    )
+    session.runs.start(RunKey.of(str(path), given.args), title, make, may_print=_PRINTS.search(source) is not None)
 
 
 def _seed(args: Sequence[str]) -> str:

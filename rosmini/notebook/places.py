@@ -84,9 +84,7 @@ class Places:
             return path
         if is_brought:
             raise OutsideHome(f"{word}: Permission denied; rosmini's own packages are read-only")
-        raise OutsideHome(
-            f"{word}: Permission denied; a notebook's terminals can use only {HOME} and {SHARE}"
-        )
+        raise OutsideHome(f"{word}: Permission denied; a notebook's terminals can use only {HOME} and {SHARE}")
 
 
 class ShownStream(io.TextIOBase):

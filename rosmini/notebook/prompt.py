@@ -65,9 +65,7 @@ class Prompt:
             return [pattern]
         start = f"{folder}/" if folder else ""
         found = self.path(folder).glob(last) if folder or not pattern.startswith("/") else []
-        return [start + path.name for path in sorted(found) if last[0] == "." or path.name[0] != "."] or [
-            pattern
-        ]
+        return [start + path.name for path in sorted(found) if last[0] == "." or path.name[0] != "."] or [pattern]
 
     def remove(self, folder: Path) -> None:
         """Remove a folder; the home folder is only emptied."""
@@ -108,16 +106,10 @@ class Prompt:
         """
         found: dict[str, str | None] = dict.fromkeys(self._unset)
         found |= {
-            name: self.places.real(value)
-            for name, value in self.environment.items()
-            if name not in (*LISTS, *START)
+            name: self.places.real(value) for name, value in self.environment.items() if name not in (*LISTS, *START)
         }
         for name in LISTS:
-            own = [
-                each
-                for each in self.environment.get(name, "").split(":")
-                if each and not each.startswith(ROS)
-            ]
+            own = [each for each in self.environment.get(name, "").split(":") if each and not each.startswith(ROS)]
             real = [self.places.real(each) for each in own]
             real += [base[name]] if name == "ROS_PACKAGE_PATH" and base.get(name) else []
             found[name] = os.pathsep.join(real) or None

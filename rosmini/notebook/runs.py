@@ -71,9 +71,7 @@ class Runs:
     def several_print(self, speaker: ScriptOutput) -> bool:
         """Return whether several running scripts may print; ``speaker`` has just printed."""
         for run in self._runs.values():
-            run.may_print |= (
-                isinstance(run.handle, ScriptHandle) and run.is_running and run.handle.writes(speaker)
-            )
+            run.may_print |= isinstance(run.handle, ScriptHandle) and run.is_running and run.handle.writes(speaker)
         launched = (made.handle for launch in self._launches.values() for made in launch.running)
         speakers = sum(run.may_print and run.is_running for run in self._runs.values())
         scripts = sum(isinstance(handle, ScriptHandle) and handle.poll() is None for handle in launched)
@@ -89,9 +87,7 @@ class Runs:
             self._launches[tuple(words)] = made
             self.graph.run(0)
 
-    def start(
-        self, key: RunKey, title: str, make: Callable[[], ScriptHandle | NodeHandle], *, may_print: bool
-    ) -> Run:
+    def start(self, key: RunKey, title: str, make: Callable[[], ScriptHandle | NodeHandle], *, may_print: bool) -> Run:
         """Start the result of ``make`` until it blocks; no time passes. An earlier run with this key ends first.
 
         Raises the errors of ``make``; then nothing was ended.
@@ -104,9 +100,7 @@ class Runs:
         self._runs[key] = run
         self.graph.run(0)
         if handle.poll() == 0 and run.node_name:
-            self._say(
-                f"{title} has ended, and its node {run.node_name} with it; rospy.spin() keeps a node alive."
-            )
+            self._say(f"{title} has ended, and its node {run.node_name} with it; rospy.spin() keeps a node alive.")
         return run
 
     def _end(self, key: RunKey) -> None:

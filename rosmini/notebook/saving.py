@@ -29,12 +29,7 @@ MARK = "written by %save_package"
 TYPES = {"msg": "message", "srv": "service", "action": "action"}
 """Folders of types, and their names in catkin's commands."""
 
-SYSTEM = {
-    "cv2": "python3-opencv",
-    "matplotlib": "python3-matplotlib",
-    "numpy": "python3-numpy",
-    "yaml": "python3-yaml",
-}
+SYSTEM = {"cv2": "python3-opencv", "matplotlib": "python3-matplotlib", "numpy": "python3-numpy", "yaml": "python3-yaml"}
 """Python modules from system packages, and rosdep's names for these."""
 
 _PKG = re.compile(r"\bpkg\s*=\s*[\"']([^\"'$]+)[\"']|\$\(find\s+([^)\s]+)\)")
@@ -56,10 +51,7 @@ def save_package(session: Session, line: str) -> None:
     except OSError as error:
         raise RosminiError(f"{where}: {error.strerror}; choose a writable folder") from error
     session.say(f"{Path(where) / package.name}: {', '.join(written)}")
-    if any(
-        "import rosmini" in path.read_text(encoding="utf-8")
-        for path in sorted((target / "scripts").glob("*.py"))
-    ):
+    if any("import rosmini" in path.read_text(encoding="utf-8") for path in sorted((target / "scripts").glob("*.py"))):
         session.say("WARNING: a script imports rosmini, which then has to be installed on the robot as well")
 
 
@@ -72,9 +64,7 @@ def save(source: Path, target: Path) -> list[str]:
         raise RosminiError(f"{target} already exists, and %save_package did not write it: move it away")
     found = {kind: [path for path in sorted((source / kind).glob("*")) if path.is_file()] for kind in FOLDERS}
     if not any(found.values()):
-        raise RosminiError(
-            "no cell has written a file yet; %%node, %%launch, %%msg, %%srv and %%action write files"
-        )
+        raise RosminiError("no cell has written a file yet; %%node, %%launch, %%msg, %%srv and %%action write files")
     if target.exists():
         shutil.rmtree(target)
     for kind, paths in found.items():
@@ -83,12 +73,7 @@ def save(source: Path, target: Path) -> list[str]:
             shutil.copy(path, target / kind)
     packages, system = dependencies(target.name, found)
     only_run = launched(target.name, found["launch"]) - {*packages}
-    new = NewPackage(
-        target.name,
-        tuple(packages),
-        f"Nodes of a notebook, {MARK}",
-        system_dependencies=tuple(system),
-    )
+    new = NewPackage(target.name, tuple(packages), f"Nodes of a notebook, {MARK}", system_dependencies=tuple(system))
     tags = "".join(f"  <exec_depend>{name}</exec_depend>\n" for name in sorted(only_run))
     _write(target / MANIFEST, manifest(new).replace("  <build_depend>", f"{tags}  <build_depend>", 1))
     _write(target / "CMakeLists.txt", cmake(target.name, packages, found))

@@ -19,9 +19,7 @@ _TOKEN = re.compile(
     r"(?P<space>\s+)|(?P<comment>\#.*)|(?P<operator>&&|\|\||>>|<<-?|[12&]>&?[12]?|[|;&<>()])"
     r"|(?P<word>(?:'[^']*'|\"(?:\\.|[^\"\\])*\"|\\.|[^\s'\"\\|;&<>()])+)"
 )
-_PIECE = re.compile(
-    r"'(?P<single>[^']*)'|\"(?P<double>(?:\\.|[^\"\\])*)\"|\\(?P<escaped>.)|(?P<plain>[^'\"\\]+)"
-)
+_PIECE = re.compile(r"'(?P<single>[^']*)'|\"(?P<double>(?:\\.|[^\"\\])*)\"|\\(?P<escaped>.)|(?P<plain>[^'\"\\]+)")
 _VARIABLE = re.compile(r"\\(?P<escaped>[$\"\\`])|\$(?:\{(?P<braced>\w+)\}|(?P<name>[A-Za-z_]\w*|\?))")
 _SUBSTITUTION = re.compile(r"\$\(|`")
 
@@ -94,9 +92,7 @@ def _tokens(number: int, row: str) -> Iterator[tuple[str, str]]:
             yield kind, match.group()
 
 
-def _pipelines(
-    number: int, parts: list[tuple[str, str]], rows: Iterator[tuple[int, str]]
-) -> Iterator[Pipeline]:
+def _pipelines(number: int, parts: list[tuple[str, str]], rows: Iterator[tuple[int, str]]) -> Iterator[Pipeline]:
     """Yield the pipelines of a line."""
     after, words = "", list[str]()
     commands: list[Command] = []
@@ -139,9 +135,7 @@ def _document(number: int, end: str, rows: Iterator[tuple[int, str]]) -> str:
         if row == wanted:
             return "".join(f"{each}\n" for each in found)
         found.append(row)
-    raise UsageError(
-        f"line {number}: the text that begins here does not end: add a line that contains only {wanted}"
-    )
+    raise UsageError(f"line {number}: the text that begins here does not end: add a line that contains only {wanted}")
 
 
 def unquoted(word: str) -> str:

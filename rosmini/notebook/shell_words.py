@@ -272,9 +272,7 @@ def rm(terminal: Prompt, given: Given) -> str:
                 raise RosminiError(f"cannot remove '{each}': No such file or directory")
         elif path.is_dir() and not path.is_symlink():
             if "r" not in given.options:
-                raise RosminiError(
-                    f"cannot remove '{each}': Is a directory; rm -r removes it and its contents"
-                )
+                raise RosminiError(f"cannot remove '{each}': Is a directory; rm -r removes it and its contents")
             terminal.remove(path)
         else:
             path.unlink()
@@ -307,9 +305,7 @@ def grep(terminal: Prompt, given: Given) -> str:
     except re.error as error:
         raise UsageError(f"{given.words[0]}: {error}") from error
     lines = _text(terminal, Given("grep", "", given.words[1:], given.text)).splitlines()
-    found = [
-        (at, line) for at, line in enumerate(lines, 1) if bool(pattern.search(line)) != ("v" in given.options)
-    ]
+    found = [(at, line) for at, line in enumerate(lines, 1) if bool(pattern.search(line)) != ("v" in given.options)]
     return _lines([f"{at}:{line}" if "n" in given.options else line for at, line in found])
 
 

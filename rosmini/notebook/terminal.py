@@ -112,9 +112,7 @@ class Terminal(Prompt):
             return
         known = [*ros_names(), *WORDS]
         hint = NOT_HERE.get(name) or NO_COMMANDS.get(name) or nearest(name, known)
-        commands = (
-            f"it knows ROS's commands (rosrun, rostopic, catkin_make ...) and {', '.join(sorted(WORDS))}"
-        )
+        commands = f"it knows ROS's commands (rosrun, rostopic, catkin_make ...) and {', '.join(sorted(WORDS))}"
         raise UsageError(f"%%terminal, line {number}: there is no command {name!r} here; {hint or commands}")
 
     def _line(self, line: shell_lines.Line) -> None:
@@ -128,11 +126,7 @@ class Terminal(Prompt):
     def _command(self, command: shell_lines.Command, text: str | None, *, is_last: bool) -> str:
         """Run one command, which reads ``text``, and return its output for the next one."""
         if command.text is not None:
-            text = (
-                command.text
-                if command.text_is_raw
-                else shell_lines.expand_variables(command.text, self._value)
-            )
+            text = command.text if command.text_is_raw else shell_lines.expand_variables(command.text, self._value)
         written = io.StringIO() if command.to is not None or not is_last else None
         name, words = "", list(command.words)
         try:
@@ -357,10 +351,6 @@ class Terminals:
         if FIRST not in self._open:
             return
         wanted = self._open[FIRST].real_environment(os.environ)
-        new = {
-            name: value
-            for name, value in wanted.items()
-            if value is not None and value != os.environ.get(name)
-        }
+        new = {name: value for name, value in wanted.items() if value is not None and value != os.environ.get(name)}
         self._own = {name: os.environ.get(name) for name in new}
         put(new)

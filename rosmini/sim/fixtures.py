@@ -23,9 +23,7 @@ class Fixtures:
 
     def __init__(self, walls: Floats, *, solid: bool) -> None:
         self._walls, self._solid = walls, solid
-        self._boxes = np.hstack(
-            [np.minimum(walls[:, :2], walls[:, 2:]), np.maximum(walls[:, :2], walls[:, 2:])]
-        )
+        self._boxes = np.hstack([np.minimum(walls[:, :2], walls[:, 2:]), np.maximum(walls[:, :2], walls[:, 2:])])
         self._overlaps = Overlaps()
         self._bottoms: dict[str, float] = {}
 

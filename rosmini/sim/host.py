@@ -202,9 +202,7 @@ class Host:
     def step(self, seconds: float) -> None:
         """Advance the world's time by `seconds` at once. Raises `RosminiError` unless it is paused."""
         if not self._paused:
-            msg = (
-                f"the world {self.engine.world.name!r} can only be stepped while it is paused: pause it first"
-            )
+            msg = f"the world {self.engine.world.name!r} can only be stepped while it is paused: pause it first"
             raise RosminiError(msg)
         if not 0 < seconds < float("inf"):
             msg = f"a step has to take a positive number of seconds, not {seconds}"
@@ -438,9 +436,7 @@ class Host:
             )
             raise RosminiError(msg)
         if set(state.instants) != set(self._groups):
-            then, now = (
-                ", ".join(f"{rate:g}" for rate in sorted(each)) for each in (state.instants, self._groups)
-            )
+            then, now = (", ".join(f"{rate:g}" for rate in sorted(each)) for each in (state.instants, self._groups))
             msg = f"the devices of the host {self.node.name} have other rates ({now} Hz) than in the state ({then} Hz)"
             raise RosminiError(msg)
         self.engine.restore(state.engine)
@@ -511,8 +507,7 @@ class DeviceGroup:
         self.devices.sort(key=lambda device: device.order)  # a stable sort
         self.always = any(device.always for device in self.devices)
         self._calls = tuple(
-            (None if device.always else device.wanted, device.due, self.offsets[device.name])
-            for device in self.devices
+            (None if device.always else device.wanted, device.due, self.offsets[device.name]) for device in self.devices
         )
 
     def wanted(self) -> bool:

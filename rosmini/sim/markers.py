@@ -48,9 +48,7 @@ class Markers:
             for i, (shape, pose) in enumerate(parts):
                 array.markers.append(self._part(obstacle, i, shape, pose, stamp))
         for name, count in self._published.items():
-            array.markers += [
-                self._header(name, i, stamp, DELETE) for i in range(published.get(name, 0), count)
-            ]
+            array.markers += [self._header(name, i, stamp, DELETE) for i in range(published.get(name, 0), count)]
         self._published = published
         return array
 
@@ -61,9 +59,7 @@ class Markers:
         marker.ns, marker.id, marker.action = name, number, action
         return marker
 
-    def _part(
-        self, obstacle: Obstacle, number: int, shape: Simple, pose: Pose, stamp: tuple[int, int]
-    ) -> Any:
+    def _part(self, obstacle: Obstacle, number: int, shape: Simple, pose: Pose, stamp: tuple[int, int]) -> Any:
         marker = self._header(obstacle.name, number, stamp, ADD)
         bottom, top = obstacle.bottom, obstacle.height
         marker.color.r, marker.color.g, marker.color.b = rgb(obstacle.colour)

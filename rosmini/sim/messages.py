@@ -82,10 +82,7 @@ def moving_transform(frame: str, child: str) -> MakeTransform:
 
 
 def fixed_transform(
-    frame: str,
-    child: str,
-    place: Sequence[float],
-    rotation: Sequence[float] = (0.0, 0.0, 0.0, 1.0),
+    frame: str, child: str, place: Sequence[float], rotation: Sequence[float] = (0.0, 0.0, 0.0, 1.0)
 ) -> Callable[[int, int], Any]:
     """Return a function that makes the transforms, of any time, to a frame at a position [m] and a quaternion."""
     message: Any = message_class("geometry_msgs/TransformStamped")(child_frame_id=child)

@@ -127,9 +127,7 @@ class LidarModel:
     @property
     def last_angle(self) -> float:
         """Angle of the last beam [rad]."""
-        return (
-            self.angle_min + (self.beams - 1) * self.increment if self.angle_max is None else self.angle_max
-        )
+        return self.angle_min + (self.beams - 1) * self.increment if self.angle_max is None else self.angle_max
 
 
 @dataclass(frozen=True)
@@ -313,9 +311,7 @@ class RobotModel:
     def laser(self) -> LidarModel:
         """The lidar of a robot that has one. Raises `ModelError`."""
         if self.lidar is None:
-            raise ModelError(
-                f"the robot model {self.name!r} has no lidar; give it a LidarModel, or ask for no scan"
-            )
+            raise ModelError(f"the robot model {self.name!r} has no lidar; give it a LidarModel, or ask for no scan")
         return self.lidar
 
     @property

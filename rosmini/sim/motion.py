@@ -51,9 +51,7 @@ class Walk:
         try:
             points = tuple((float(x), float(y)) for x, y in self.waypoints)
         except (TypeError, ValueError) as error:
-            raise WorldError(
-                f"the waypoints of a walk are pairs of x and y, not {self.waypoints!r}"
-            ) from error
+            raise WorldError(f"the waypoints of a walk are pairs of x and y, not {self.waypoints!r}") from error
         object.__setattr__(self, "waypoints", points)
         if len(points) < 2 or not all(map(is_finite, sum(points, ()))):
             raise WorldError(f"a walk has two finite waypoints or more, not {points!r}")

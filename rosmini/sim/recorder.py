@@ -167,9 +167,7 @@ class Recorder:
         if begin is None:
             raise RecordingError(self._nothing())
         others = [
-            run.recording(begin)
-            for run in self._runs.values()
-            if run is not self._first and run.begin() is not None
+            run.recording(begin) for run in self._runs.values() if run is not self._first and run.begin() is not None
         ]
         own = self._first.recording(begin)
         if self._layers is not None:
@@ -195,9 +193,7 @@ class Recorder:
 
     def clock_went_back(self, topic: str, by: float) -> None:
         """Log that the clock went back [s], and begin a new run."""
-        self.node.logwarn(
-            f"the time on {self.node.resolve(topic)} went back by {by:.3f} s: a new recording begins"
-        )
+        self.node.logwarn(f"the time on {self.node.resolve(topic)} went back by {by:.3f} s: a new recording begins")
         self.clear()
 
     def stamp(self, header: Any) -> int:
@@ -209,11 +205,7 @@ def _only_simulation(graph: Graph) -> Any:
     """Return the only simulation in a graph. Raises `RecordingError` unless there is exactly one."""
     found = {name: node.program for name, node in graph.nodes.items() if isinstance(node.program, Simulation)}
     if len(found) != 1:
-        there = (
-            f"{len(found)} simulations run in this graph ({', '.join(found)})"
-            if found
-            else "no simulation runs"
-        )
+        there = f"{len(found)} simulations run in this graph ({', '.join(found)})" if found else "no simulation runs"
         raise RecordingError(
             f"{there}: start one (rosrun rosmini_sim simulator), or say what to record: Recorder(graph, simulator)"
         )
@@ -235,9 +227,7 @@ class _Run:
         node.subscriber(self.topic(TRUTH), odometry, self._pose, arguments=(TRUTH,))
         node.subscriber(self.topic(ODOM), odometry, self._pose, arguments=(ODOM,))
         if model.lidar is not None:
-            node.subscriber(
-                self.topic(recorder.scan_topic), message_class("sensor_msgs/LaserScan"), self._scan
-            )
+            node.subscriber(self.topic(recorder.scan_topic), message_class("sensor_msgs/LaserScan"), self._scan)
         node.subscriber(self.topic(COMMANDS), message_class("geometry_msgs/Twist"), self._command)
 
     def topic(self, name: str) -> str:
@@ -281,16 +271,12 @@ class _Run:
         stamps = self._times()
         times = seconds(stamps[stamps >= begin] if (stamps >= begin).any() else stamps[-1:], begin)
         commands, scans = self.tracks[COMMANDS], self.tracks[SCAN]
-        given = np.column_stack(
-            [seconds(commands.stamps, begin), np.array(commands.rows, dtype=float).reshape(-1, 2)]
-        )
+        given = np.column_stack([seconds(commands.stamps, begin), np.array(commands.rows, dtype=float).reshape(-1, 2)])
         scan_times = seconds(scans.stamps, begin)
         kept = scan_times >= 0
         lidar = self.model.lidar
         turned = (
-            []
-            if lidar is None
-            else [aligned(scan, lidar) for scan, keep in zip(scans.rows, kept, strict=True) if keep]
+            [] if lidar is None else [aligned(scan, lidar) for scan, keep in zip(scans.rows, kept, strict=True) if keep]
         )
         return Recording(
             self._recorder.world,
@@ -370,9 +356,7 @@ class _MovingObstacles:
             if name in self._known:
                 q = pose.orientation
                 self._appearances[name] = self._known[name]
-                self._add(
-                    name, stamp, (pose.position.x, pose.position.y, yaw_from_quaternion(q.x, q.y, q.z, q.w))
-                )
+                self._add(name, stamp, (pose.position.x, pose.position.y, yaw_from_quaternion(q.x, q.y, q.z, q.w)))
 
     def _add(self, name: str, stamp: int, pose: Pose) -> None:
         track = self._tracks.setdefault(name, _Track())

@@ -56,9 +56,7 @@ class Moved:
                 f"where {name!r} was must be times (n,) and poses (n, 3), not {self.times.shape} and {self.poses.shape}"
             )
         if not np.isfinite(self.poses).all() or (np.diff(self.times) <= 0).any():
-            raise RecordingError(
-                f"the times when {name!r} was somewhere must increase, and its poses be finite"
-            )
+            raise RecordingError(f"the times when {name!r} was somewhere must increase, and its poses be finite")
 
     def at(self, time: float) -> Obstacle:
         """Return the obstacle at its pose at this time."""
@@ -123,11 +121,7 @@ class Recording:
     """Other messages: (time [s], topic, message), in order; maps, plans, particles ... and transforms."""
 
     def __post_init__(self) -> None:
-        n, k, beams = (
-            len(self.times),
-            len(self.scan_times),
-            0 if self.model.lidar is None else self.model.lidar.beams,
-        )
+        n, k, beams = (len(self.times), len(self.scan_times), 0 if self.model.lidar is None else self.model.lidar.beams)
         if not n:
             raise RecordingError("a recording needs at least one sample: truth and odom at one time")
         wanted = {"times": (n,), "truth": (n, 3), "odom": (n, 3), "scan_times": (k,), "scans": (k, beams)}
@@ -139,9 +133,7 @@ class Recording:
             bad = np.isnan(array) if name == "scans" else ~np.isfinite(array)
             if bad.any():
                 place = ", ".join(str(i) for i in np.argwhere(bad)[0])
-                raise RecordingError(
-                    f"{name}[{place}] of a recording is {array[bad][0]}, which is not a number"
-                )
+                raise RecordingError(f"{name}[{place}] of a recording is {array[bad][0]}, which is not a number")
         for name in ("times", "scan_times"):
             if (np.diff(getattr(self, name)) <= 0).any():
                 raise RecordingError(f"{name} of a recording must increase")
@@ -162,9 +154,7 @@ class Recording:
         """Return the same run with the robot called `name` as the first. Raises `RecordingError`."""
         for each in self.robots:
             if each.name == name:
-                rest = tuple(
-                    replace(other, others=(), things=()) for other in self.robots if other is not each
-                )
+                rest = tuple(replace(other, others=(), things=()) for other in self.robots if other is not each)
                 return replace(each, others=rest, things=self.things)
         there = ", ".join(repr(each.name) for each in self.robots)
         raise RecordingError(
@@ -245,9 +235,7 @@ class Recording:
             scan_times=self.scan_times[seen],
             scans=self.scans[seen],
             others=tuple(
-                other.window(t0, t1)
-                for other in self.others
-                if ((other.times >= t0) & (other.times <= t1)).any()
+                other.window(t0, t1) for other in self.others if ((other.times >= t0) & (other.times <= t1)).any()
             ),
             things=tuple(thing.window(t0, t1) for thing in self.things),
             messages=_in_force(self.messages, t0, t1),
@@ -314,9 +302,7 @@ def since(commands: Floats, begin: float) -> Floats:
     return np.vstack([before, after])
 
 
-def _in_force(
-    messages: tuple[tuple[float, str, Any], ...], t0: float, t1: float
-) -> tuple[tuple[float, str, Any], ...]:
+def _in_force(messages: tuple[tuple[float, str, Any], ...], t0: float, t1: float) -> tuple[tuple[float, str, Any], ...]:
     """Return the messages from `t0` to `t1`, preceded by the last earlier one on each topic, with the time `t0`.
 
     All transforms before `t0` are kept, with their times, because some are valid permanently.

@@ -72,9 +72,7 @@ class Polygon:
         try:
             object.__setattr__(self, "corners", tuple(tuple(corner) for corner in self.corners))
         except TypeError as error:
-            raise WorldError(
-                f"the corners of a polygon are pairs of x and y, not {self.corners!r}"
-            ) from error
+            raise WorldError(f"the corners of a polygon are pairs of x and y, not {self.corners!r}") from error
 
     @property
     def outline(self) -> NDArray[np.float64]:

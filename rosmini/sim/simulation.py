@@ -79,9 +79,7 @@ class Simulation(ABC):
         if self._ended:
             why = f"the node {self.node.name} was shut down" if self.node.is_shutdown() else "it was removed"
             world, again = self.engine.world.name, self.program.partition("/")[2]
-            raise RobotGone(
-                f"{self._subject()} is no longer in the world {world!r}: {why}. Start another {again}."
-            )
+            raise RobotGone(f"{self._subject()} is no longer in the world {world!r}: {why}. Start another {again}.")
 
     def _subject(self) -> str:
         """Return the subject of the error message after the end."""
@@ -213,9 +211,7 @@ class Simulation(ABC):
         for device in self.host.devices:
             if isinstance(device, DifferentialDrive) and device.robot.name == name:
                 return device.reckoned.pose
-        raise RobotGone(
-            f"the first robot in the world {self.engine.world.name!r} has no drive, and no odometry"
-        )
+        raise RobotGone(f"the first robot in the world {self.engine.world.name!r} has no drive, and no odometry")
 
     # -- saving --------------------------------------------------------------------------------------------------
 
@@ -247,9 +243,7 @@ class Simulation(ABC):
                 raise RosminiError(msg)
             if state.world != self.engine.world.name:
                 world = self.engine.world.name
-                raise RosminiError(
-                    f"a state of the world {state.world!r} cannot be restored in the world {world!r}"
-                )
+                raise RosminiError(f"a state of the world {state.world!r} cannot be restored in the world {world!r}")
             self._remove_new(state.own)
             self.engine.restore(state.host.engine)
             self._bring_back(state.own)

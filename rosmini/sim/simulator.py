@@ -48,15 +48,11 @@ class SimulatorParameters(Parameters):
 
     world: str = parameter("room", "which world: a name, or a map's yaml file")
     model: str | None = parameter(None, "which robot; without it what TURTLEBOT3_MODEL says, else burger")
-    x: float | None = parameter(
-        None, "where the robot starts; without it at the world's first start", unit="m"
-    )
+    x: float | None = parameter(None, "where the robot starts; without it at the world's first start", unit="m")
     y: float | None = parameter(None, "where the robot starts", unit="m")
     yaw: float | None = parameter(None, "its heading there, counter-clockwise from the x axis", unit="rad")
     noise: float = parameter(1.0, "scales every error of wheels and sensors; 0: none", minimum=0.0)
-    odometry: str = parameter(
-        ODOMETRY[0], "what says how far a robot has turned, for its odometry", choices=ODOMETRY
-    )
+    odometry: str = parameter(ODOMETRY[0], "what says how far a robot has turned, for its odometry", choices=ODOMETRY)
     sweep: bool = parameter(
         True, "measure a scan's beams one after the other, as a real LDS-01 does, and not all at once"
     )
@@ -68,15 +64,12 @@ class SimulatorParameters(Parameters):
     board: bool = parameter(
         False, "have the topics of the robot's board too: sensor_state, battery_state, motor_power, reset"
     )
-    battery: float = parameter(
-        1.0, "with the board: how full the batteries are at first", minimum=0.0, maximum=1.0
-    )
+    battery: float = parameter(1.0, "with the board: how full the batteries are at first", minimum=0.0, maximum=1.0)
     obstacles: bool = parameter(
         False, "publish where all that moves by itself or can be pushed is, as markers on obstacles"
     )
     use_rep_117: bool = parameter(
-        True,
-        "write inf for what is too far and -inf for what is too near; else 0.0, as a real LDS-01 does",
+        True, "write inf for what is too far and -inf for what is too near; else 0.0, as a real LDS-01 does"
     )
 
 
@@ -97,9 +90,7 @@ class Simulator(Simulation):
 
     program = "rosmini_sim/simulator"
 
-    def __init__(
-        self, node: Node, *, world: World | str | None = None, model: RobotModel | str | None = None
-    ) -> None:
+    def __init__(self, node: Node, *, world: World | str | None = None, model: RobotModel | str | None = None) -> None:
         self.parameters = SimulatorParameters.read(node)
         world = self.parameters.world if world is None else world
         model = self.parameters.model if model is None else model
@@ -107,14 +98,7 @@ class Simulator(Simulation):
         self.model = model if isinstance(model, RobotModel) else model_called(model)
         own = self.parameters
         self._options = Options(
-            own.noise,
-            own.cmd_vel_timeout,
-            own.tf,
-            own.use_rep_117,
-            own.board,
-            own.battery,
-            own.odometry,
-            own.sweep,
+            own.noise, own.cmd_vel_timeout, own.tf, own.use_rep_117, own.board, own.battery, own.odometry, own.sweep
         )
         engine = Engine(world, lambda name: node.graph.rng(f"{node.name}/{name}"), noise=own.noise)
         pose = start_pose(world, own.x, own.y, own.yaw)
@@ -135,9 +119,7 @@ class Simulator(Simulation):
         """The robots in the world by name, in order of arrival."""
         for start in starts:
             self._bring(start)
-        self._service = node.service(
-            "reset_positions", service_class("std_srvs/Empty"), self._reset_positions
-        )
+        self._service = node.service("reset_positions", service_class("std_srvs/Empty"), self._reset_positions)
 
     @property
     def world(self) -> World:
@@ -146,15 +128,9 @@ class Simulator(Simulation):
 
     def __repr__(self) -> str:
         first = self.robots.get(self.name)
-        what = (
-            "removed"
-            if first is None
-            else f"{self.name} at ({first.robot.pose[0]:.2f}, {first.robot.pose[1]:.2f})"
-        )
+        what = "removed" if first is None else f"{self.name} at ({first.robot.pose[0]:.2f}, {first.robot.pose[1]:.2f})"
         more = len(self.robots) - (first is not None)
-        return (
-            f"<Simulator {self.node.name}: {what}{f' and {more} more' if more else ''} in {self.world.name}>"
-        )
+        return f"<Simulator {self.node.name}: {what}{f' and {more} more' if more else ''} in {self.world.name}>"
 
     def _bring(self, start: Start) -> TurtleBot:
         """Create the topics of a robot in the engine."""

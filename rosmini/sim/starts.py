@@ -28,9 +28,7 @@ KEYS = ("name", "model", "x", "y", "yaw", "namespace", "tf_prefix")
 MAX_ROBOTS = 1000
 """Maximum number of initial robots."""
 
-START_HELP = (
-    "Say where with the arguments x:=, y:= and yaw:= of the launch file, or the parameters ~x, ~y and ~yaw"
-)
+START_HELP = "Say where with the arguments x:=, y:= and yaw:= of the launch file, or the parameters ~x, ~y and ~yaw"
 """Advice to the user if a start is occupied."""
 
 GAP, RINGS = 0.05, 60
@@ -49,9 +47,7 @@ class Start:
     tf_prefix: str = ""
 
 
-def read_starts(
-    node: Node, model: RobotModel, world: World, pose: Pose | None, tf_prefix: str
-) -> list[Start]:
+def read_starts(node: Node, model: RobotModel, world: World, pose: Pose | None, tf_prefix: str) -> list[Start]:
     """Return the robots of the parameter `~robots`, or the one described by the other parameters.
 
     `~robots` is a number n, for robots tb3_0 ... tb3_(n-1); or a list of names or of mappings with the keys `KEYS`.
@@ -74,9 +70,7 @@ def read_starts(
     names = [start.name for start in starts]
     for name in names:
         if names.count(name) > 1:
-            raise ParameterError(
-                f"parameter {where}: two robots are called {name!r}; give them different names"
-            )
+            raise ParameterError(f"parameter {where}: two robots are called {name!r}; give them different names")
     return starts
 
 
@@ -113,9 +107,7 @@ def start_pose(world: World, x: float | None, y: float | None, yaw: float | None
     given = (x, y, yaw)
     if given == (None, None, None):
         return None
-    px, py, theta = (
-        own if part is None else float(part) for part, own in zip(given, world.starts[0], strict=True)
-    )
+    px, py, theta = (own if part is None else float(part) for part, own in zip(given, world.starts[0], strict=True))
     return (px, py, theta)
 
 

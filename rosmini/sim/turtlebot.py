@@ -71,9 +71,7 @@ class TurtleBot:
 
     """
 
-    def __init__(
-        self, host: Host, robot: Robot, *, namespace: str = "", tf_prefix: str = "", options: Options
-    ) -> None:
+    def __init__(self, host: Host, robot: Robot, *, namespace: str = "", tf_prefix: str = "", options: Options) -> None:
         self.host = host
         self.robot = robot
         self.name = robot.name
@@ -98,9 +96,7 @@ class TurtleBot:
         self.imu: ImuDevice | None = None
         if self.model.imu is not None:
             frame = self.frame(self.model.imu.frame)
-            self.imu = self._add(
-                ImuDevice(host, name, topic=self.topic("imu"), frame=frame, noise=options.noise)
-            )
+            self.imu = self._add(ImuDevice(host, name, topic=self.topic("imu"), frame=frame, noise=options.noise))
         kind = PlanarMove if self.model.drive == "holonomic" else DifferentialDrive
         self.drive = self._add(
             kind(
@@ -115,9 +111,7 @@ class TurtleBot:
             )
         )
         self.truth = self._add(
-            GroundTruth(
-                host, name, topic=self.topic("base_pose_ground_truth"), frame=MAP, child=self.frame(BASE)
-            )
+            GroundTruth(host, name, topic=self.topic("base_pose_ground_truth"), frame=MAP, child=self.frame(BASE))
         )
         if options.tf:
             self.drive.publish_transform("/tf")
@@ -152,11 +146,7 @@ class TurtleBot:
         kind = BURGER_BATTERY if self.model.name == BURGER.name else WAFFLE_BATTERY
         self.battery = self._add(
             BatteryDevice(
-                host,
-                name,
-                Battery(kind, self.options.battery),
-                drive=self.drive,
-                topic=self.topic("battery_state"),
+                host, name, Battery(kind, self.options.battery), drive=self.drive, topic=self.topic("battery_state")
             )
         )
         self._add(SensorStateDevice(host, self.drive, self.battery, topic=self.topic("sensor_state")))

@@ -114,9 +114,7 @@ class Obstacle:
         problem = (
             shape_problem(self.shape)
             or pose_problem("pose", self.pose)
-            or (
-                f"bottom is {self.bottom!r}; it must be a finite number" if not is_finite(self.bottom) else ""
-            )
+            or (f"bottom is {self.bottom!r}; it must be a finite number" if not is_finite(self.bottom) else "")
         )
         if not problem and isinstance(self.shape, Sphere):
             object.__setattr__(self, "height", self.bottom + 2 * self.shape.radius)
@@ -124,8 +122,7 @@ class Obstacle:
             problem
             or positive_problem("height", self.height)
             or (
-                f"its bottom is at {self.bottom!r} and its height is {self.height!r}; the top must be above the "
-                "bottom"
+                f"its bottom is at {self.bottom!r} and its height is {self.height!r}; the top must be above the bottom"
                 if self.height <= self.bottom
                 else ""
             )
@@ -148,11 +145,7 @@ class Obstacle:
             return ""
         if not isinstance(self.motion, Motion):
             return f"motion is {self.motion!r}; it must be a Walk or a Door"
-        return (
-            "it has a mass, so robots push it, and a motion of its own; it can have one of them"
-            if self.mass
-            else ""
-        )
+        return "it has a mass, so robots push it, and a motion of its own; it can have one of them" if self.mass else ""
 
     @property
     def movable(self) -> bool:
@@ -174,9 +167,7 @@ class Obstacle:
 
     def outline(self) -> NDArray[np.float64]:
         """Return the corners (n, 2) in the world; none for a round shape or a compound."""
-        return (
-            outline_at(self.shape, self.pose) if isinstance(self.shape, (Box, Polygon)) else np.empty((0, 2))
-        )
+        return outline_at(self.shape, self.pose) if isinstance(self.shape, (Box, Polygon)) else np.empty((0, 2))
 
 
 def edges(outline: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -241,9 +232,7 @@ class World:
         ends, counts = np.unique(walls.reshape(-1, 2), axis=0, return_counts=True)
         if (counts % 2).any():
             x, y = ends[counts % 2 == 1][0]
-            return (
-                f"its walls are solid but not closed: one ends at ({x:.3f}, {y:.3f}), where no other begins"
-            )
+            return f"its walls are solid but not closed: one ends at ({x:.3f}, {y:.3f}), where no other begins"
         return ""
 
     def __repr__(self) -> str:
@@ -351,11 +340,7 @@ class World:
         return {name: value for name, value in vars(self).items() if name != "_fixtures"}
 
     def free_place(
-        self,
-        pose: Pose,
-        footprint: Footprint,
-        height: float = 0.0,
-        taken: Callable[[Pose], object] = lambda _: None,
+        self, pose: Pose, footprint: Footprint, height: float = 0.0, taken: Callable[[Pose], object] = lambda _: None
     ) -> Pose | None:
         """Return the nearest position to `pose` that is free for a footprint, with the same heading.
 

@@ -39,10 +39,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument("shell", nargs="?", choices=SHELLS, help="by default the one that runs, by $SHELL")
     parser.add_argument(
-        "--complete",
-        nargs=argparse.REMAINDER,
-        metavar="WORD",
-        help="print what the last word may become (for shells)",
+        "--complete", nargs=argparse.REMAINDER, metavar="WORD", help="print what the last word may become (for shells)"
     )
     return parser
 
@@ -72,9 +69,7 @@ def lines(shell: str, program: list[str]) -> str:
     """Return the lines for a shell; ``program`` is the command that starts rosmini."""
     if shell == "powershell":
         start = "& " + " ".join(f"'{word.replace(chr(39), chr(39) * 2)}'" for word in program)
-        return "".join(
-            _POWERSHELL.format(name=name, start=start, call=_cd(shell, name, start)) for name in names()
-        )
+        return "".join(_POWERSHELL.format(name=name, start=start, call=_cd(shell, name, start)) for name in names())
     start = shlex.join(program)
     head = (_BASH if shell == "bash" else _ZSH).format(start=start)
     completes = "complete -o default -F _rosmini_complete" if shell == "bash" else "compdef _rosmini_complete"

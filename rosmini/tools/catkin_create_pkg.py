@@ -30,21 +30,15 @@ def _parser() -> ArgumentParser:
     parser.add_argument("name", help="the name of the package")
     parser.add_argument("dependencies", nargs="*", help="the packages that it needs")
     parser.add_argument("--meta", action="store_true", help="make a metapackage, which only gathers others")
-    parser.add_argument(
-        "-s", "--sys-deps", nargs="*", default=[], help="libraries of the system that it needs"
-    )
+    parser.add_argument("-s", "--sys-deps", nargs="*", default=[], help="libraries of the system that it needs")
     parser.add_argument("-b", "--boost-comps", nargs="*", default=[], help="parts of Boost that it needs")
     parser.add_argument("-V", "--pkg_version", default="0.0.0", help="its version (default: 0.0.0)")
     parser.add_argument("-D", "-d", "--description", default="", help="what it is")
     parser.add_argument(
         "-l", "--license", action="append", default=[], help="a licence, such as BSD or MIT; more than once"
     )
-    parser.add_argument(
-        "-a", "--author", action="append", default=[], help="who wrote it; may be given more than once"
-    )
-    parser.add_argument(
-        "-m", "--maintainer", action="append", default=[], help="who looks after it; more than once"
-    )
+    parser.add_argument("-a", "--author", action="append", default=[], help="who wrote it; may be given more than once")
+    parser.add_argument("-m", "--maintainer", action="append", default=[], help="who looks after it; more than once")
     parser.add_argument("--rosdistro", help="accepted, and of no effect: the files are the same for all")
     return parser
 

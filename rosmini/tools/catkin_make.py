@@ -28,14 +28,7 @@ Targets are `all` (the default), `clean`, which removes build and devel, and the
 
 for example: rosmini catkin_make -C ~/example_ws && . ~/example_ws/devel/setup.sh
 """
-IGNORED = (
-    "--use-ninja",
-    "--use-nmake",
-    "--use-gmake",
-    "--force-cmake",
-    "--no-color",
-    "--override-build-tool-check",
-)
+IGNORED = ("--use-ninja", "--use-nmake", "--use-gmake", "--force-cmake", "--no-color", "--override-build-tool-check")
 NO_TESTS = "rosmini runs no tests of packages: use pytest for those in Python, and real ROS for the others"
 NOT_HERE = {
     "run_tests": NO_TESTS,
@@ -87,9 +80,7 @@ def make(given: argparse.Namespace, call: Call) -> Made:
     say(f"Base path: {base}")
     try:
         workspace = Workspace.at(base, given.source, given.build)
-        say(
-            f"Source space: {workspace.source}\nBuild space: {workspace.build}\nDevel space: {workspace.devel}"
-        )
+        say(f"Source space: {workspace.source}\nBuild space: {workspace.build}\nDevel space: {workspace.devel}")
         return _make(workspace, given, call, say)
     except CatkinError as error:
         raise VerbError(str(error)) from error

@@ -63,9 +63,7 @@ def _beginning(start: str, words: Iterable[str]) -> list[str]:
 def _options(verb: Verb) -> list[str]:
     """Return the options in a verb's help: the left column."""
     lines = (line.strip() for line in verb.parser().format_help().splitlines() if line.startswith("  "))
-    return [
-        option for line in lines if line[:1] == "-" for option in _OPTIONS.findall(line.partition("  ")[0])
-    ]
+    return [option for line in lines if line[:1] == "-" for option in _OPTIONS.findall(line.partition("  ")[0])]
 
 
 def _names(verb: Verb, before: Sequence[str], peers: Peers) -> list[str]:
@@ -116,11 +114,7 @@ def _of_launch_files(before: Sequence[str]) -> list[str]:
         if len(before) == 1:
             return [path.name for path in inside]
         file = next((path for path in inside if path.name == before[1]), None)
-    return (
-        []
-        if file is None
-        else [f"{name}:=" for name in read(file, packages=packages, lenient=True).arguments]
-    )
+    return [] if file is None else [f"{name}:=" for name in read(file, packages=packages, lenient=True).arguments]
 
 
 def _of_kind(kind: str, peers: Peers) -> list[str]:

@@ -34,12 +34,8 @@ def _parser() -> Parser:
     parser.add_option("--lose", type="float", metavar="P", help="lose messages with probability P")
     parser.add_option("--double", type="float", metavar="P", help="let them arrive twice with probability P")
     parser.add_option("--delay", type="float", metavar="S", help="let them arrive S seconds late")
-    parser.add_option(
-        "--jitter", type="float", metavar="S", help="and up to S seconds later still: they may overtake"
-    )
-    parser.add_option(
-        "--to", default="", metavar="NODE", help="for this subscriber only, or the clock of this node"
-    )
+    parser.add_option("--jitter", type="float", metavar="S", help="and up to S seconds later still: they may overtake")
+    parser.add_option("--to", default="", metavar="NODE", help="for this subscriber only, or the clock of this node")
     parser.add_option("--seed", type="int", metavar="N", help="what chance starts from (the graph's seed)")
     parser.flag("--kill", dest="kill", help="kill the node as kill -9 does: the Master is told nothing")
     parser.flag("--cut", dest="cut", help="cut the service off: calls fail")
@@ -58,9 +54,7 @@ def make(given: Values, call: Call) -> Lines:
     if what in ("list", "clear") and not kinds:
         return _list(faults) if what == "list" else _clear(faults, rest, parser)
     if not what or rest or len(kinds) != 1:
-        parser.error(
-            "name one topic, node or service, or `clock`, `list` or `clear`, and one kind of fault for it"
-        )
+        parser.error("name one topic, node or service, or `clock`, `list` or `clear`, and one kind of fault for it")
     to = global_name(given.to) if given.to else ""
     if kinds == ["jump"]:
         if what != "clock":

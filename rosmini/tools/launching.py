@@ -182,9 +182,7 @@ def end_master(process: subprocess.Popen[bytes], log: Log, guard: Guard) -> None
     guard.ended(process.pid)
 
 
-def run_nodes(
-    plan: Plan, given: Values, packages: PackageIndex, log: Log, guard: Guard, *, first: int
-) -> None:
+def run_nodes(plan: Plan, given: Values, packages: PackageIndex, log: Log, guard: Guard, *, first: int) -> None:
     """Start the nodes, wait until all have ended or Ctrl-C, and shut down the rest."""
     from rosmini.ros.launch.running import Launch
     from rosmini.ros.net import connect

@@ -54,9 +54,7 @@ def register(
             # The tools of other rooms import half of the library, so each is imported when it is first used.
             summary = f"a tool of {entry.entry_point.module}" if isinstance(entry, Plugged) else entry.summary
             magic = partial(run, shell, name, say=say, warn=warn)
-            shell.register_magic_function(
-                no_var_expand(_documented(magic, name, summary, around)), "line", name
-            )
+            shell.register_magic_function(no_var_expand(_documented(magic, name, summary, around)), "line", name)
             shell.set_hook("complete_command", _complete, str_key=f"%{name}")
     for name in SLIPS:
         shell.register_magic_function(no_var_expand(_slip(name)), "line", name)
@@ -72,10 +70,7 @@ def _slip(name: str) -> Callable[[str], None]:
 
 
 def _documented(
-    magic: Callable[[str], Result],
-    name: str,
-    summary: str,
-    around: Callable[[], AbstractContextManager[object]],
+    magic: Callable[[str], Result], name: str, summary: str, around: Callable[[], AbstractContextManager[object]]
 ) -> Callable[[str], Result]:
     """Return the magic as a function with a name and a help text."""
 

@@ -129,14 +129,10 @@ COMMANDS: dict[str, Entry | Plugged] = {
     "roscore": Entry("rosmini.tools.roscore", "start the Master, the Parameter Server and /rosout"),
     "rosrun": Entry("rosmini.tools.rosrun", "run a node in a process of its own"),
     "roslaunch": Entry(
-        "rosmini.tools.roslaunch",
-        "start the nodes of launch files, or show what the files mean",
-        is_magic=True,
+        "rosmini.tools.roslaunch", "start the nodes of launch files, or show what the files mean", is_magic=True
     ),
     "test": Entry("rosmini.tools.test", "run the tests in launch files", group=OWN),
-    "run": Entry(
-        "rosmini.tools.run", "run rospy scripts as nodes of one graph, also faster than real time", group=OWN
-    ),
+    "run": Entry("rosmini.tools.run", "run rospy scripts as nodes of one graph, also faster than real time", group=OWN),
     "rosnode": Entry("rosmini.tools.rosnode", "list, describe, ping and end nodes", is_magic=True),
     "rostopic": Entry(
         "rosmini.tools.rostopic", "list topics, print and publish messages, measure rates", is_magic=True
@@ -151,10 +147,7 @@ COMMANDS: dict[str, Entry | Plugged] = {
         "rosmini.tools.roswhy", "explain why the last message on a topic was sent", is_magic=True, group=OWN
     ),
     "rossequence": Entry(
-        "rosmini.tools.rossequence",
-        "show who called whom and who sent what to whom",
-        is_magic=True,
-        group=OWN,
+        "rosmini.tools.rossequence", "show who called whom and who sent what to whom", is_magic=True, group=OWN
     ),
     "fault": Entry(
         "rosmini.tools.fault",
@@ -162,31 +155,19 @@ COMMANDS: dict[str, Entry | Plugged] = {
         is_magic=True,
         group=OWN,
     ),
-    "rosparam": Entry(
-        "rosmini.tools.rosparam", "get, set, load, dump, delete and list parameters", is_magic=True
-    ),
+    "rosparam": Entry("rosmini.tools.rosparam", "get, set, load, dump, delete and list parameters", is_magic=True),
     "rosbag": Entry("rosmini.tools.rosbag", "record, play and inspect bags", is_magic=True),
     "rospack": Entry(
-        "rosmini.tools.rospack",
-        "find packages, and list what they depend on and export",
-        is_magic=True,
-        group=BUILD,
+        "rosmini.tools.rospack", "find packages, and list what they depend on and export", is_magic=True, group=BUILD
     ),
     "rosstack": Entry(
-        "rosmini.tools.rosstack",
-        "find stacks and metapackages, and list their contents",
-        is_magic=True,
-        group=BUILD,
+        "rosmini.tools.rosstack", "find stacks and metapackages, and list their contents", is_magic=True, group=BUILD
     ),
     "roscd": Entry("rosmini.tools.roscd", "go to the folder of a package", is_magic=True, group=BUILD),
     "rosls": Entry("rosmini.tools.rosls", "list the folder of a package", is_magic=True, group=BUILD),
-    "rosversion": Entry(
-        "rosmini.tools.rosversion", "print the version of a package", is_magic=True, group=BUILD
-    ),
+    "rosversion": Entry("rosmini.tools.rosversion", "print the version of a package", is_magic=True, group=BUILD),
     "aliases": Entry(
-        "rosmini.tools.aliases",
-        "print shell lines that define the bare names (rostopic ...) and completion",
-        group=OWN,
+        "rosmini.tools.aliases", "print shell lines that define the bare names (rostopic ...) and completion", group=OWN
     ),
     "catkin_init_workspace": Entry(
         "rosmini.tools.catkin_init_workspace",
@@ -194,26 +175,18 @@ COMMANDS: dict[str, Entry | Plugged] = {
         is_magic=True,
         group=BUILD,
     ),
-    "catkin_create_pkg": Entry(
-        "rosmini.tools.catkin_create_pkg", "create a package", is_magic=True, group=BUILD
-    ),
+    "catkin_create_pkg": Entry("rosmini.tools.catkin_create_pkg", "create a package", is_magic=True, group=BUILD),
     "catkin_make": Entry("rosmini.tools.catkin_make", "build a workspace", is_magic=True, group=BUILD),
     "stubs": Entry("rosmini.tools.stubs", "write type stubs of rospy and of messages for editors", group=OWN),
-    "mcap": Entry(
-        "rosmini.tools.mcap", "convert between bags and MCAP files, which Foxglove opens", group=OWN
-    ),
+    "mcap": Entry("rosmini.tools.mcap", "convert between bags and MCAP files, which Foxglove opens", group=OWN),
     "book": Entry("book.tools.book", "build this book and open it", ".", group=BOOK),
     "lab": Entry("book.tools.lab", "open the chapters in JupyterLab", ".", group=BOOK),
     "bench": Entry(
-        "rosmini_bench",
-        "measure rosmini beside real ROS and other simulators",
-        "tests/benchmarks",
-        group=BOOK,
+        "rosmini_bench", "measure rosmini beside real ROS and other simulators", "tests/benchmarks", group=BOOK
     ),
 }
 COMMANDS.update(
-    (found.name, Plugged(found))
-    for found in sorted(entry_points(group="rosmini.verbs"), key=attrgetter("name"))
+    (found.name, Plugged(found)) for found in sorted(entry_points(group="rosmini.verbs"), key=attrgetter("name"))
 )
 
 
@@ -286,9 +259,7 @@ def grouped_commands() -> str:
             if name not in tools:
                 lines.append(f"  {name:{width}}  {summary}")
             if name == "rqt":
-                lines += textwrap.wrap(
-                    ", ".join(tools), 78, initial_indent=" " * 4, subsequent_indent=" " * 4
-                )
+                lines += textwrap.wrap(", ".join(tools), 78, initial_indent=" " * 4, subsequent_indent=" " * 4)
         lines.append("")
     return "\n".join([*lines, "`rosmini COMMAND --help` says more about a command."])
 

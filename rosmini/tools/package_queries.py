@@ -81,13 +81,9 @@ class Queries:
 
         def make() -> ArgumentParser:
             epilog = f"for example: rosmini {self.tool.name} {verb}{' std_msgs' if named else ''}"
-            parser = ArgumentParser(
-                f"rosmini {self.tool.name} {verb}", self.tool.verbs[verb].summary, epilog=epilog
-            )
+            parser = ArgumentParser(f"rosmini {self.tool.name} {verb}", self.tool.verbs[verb].summary, epilog=epilog)
             if named:
-                parser.add_argument(
-                    "name", nargs="?", help=f"the {named}; by default that of the working folder"
-                )
+                parser.add_argument("name", nargs="?", help=f"the {named}; by default that of the working folder")
             for option in options:
                 if option.endswith("?"):
                     parser.add_argument(f"--{option[:-1]}", action="store_true")
@@ -118,11 +114,7 @@ class Queries:
         add("depends deps", f"list all that a {noun} needs", self._depends)
         add("depends1 deps1", f"list what a {noun} needs directly", self._depends1)
         add("depends-indent deps-indent", f"list all that a {noun} needs, as a tree", self._indent)
-        add(
-            "depends-manifests deps-manifests",
-            f"list the manifests of all that a {noun} needs",
-            self._manifests,
-        )
+        add("depends-manifests deps-manifests", f"list the manifests of all that a {noun} needs", self._manifests)
         add("depends-why deps-why", f"list every way in which a {noun} needs another", self._why, "target")
         add("depends-on", f"list all {noun}s that need one", self._depends_on)
         add("depends-on1", f"list the {noun}s that need one directly", self._depends_on1)
@@ -139,8 +131,7 @@ class Queries:
     def _list(self, _given: argparse.Namespace, _call: Call) -> Lines:
         known = self.known()
         return Lines(
-            lines=tuple(f"{name} {known.path(name)}" for name in known.names()),
-            complaints=self._broken(known),
+            lines=tuple(f"{name} {known.path(name)}" for name in known.names()), complaints=self._broken(known)
         )
 
     def _list_names(self, _given: argparse.Namespace, _call: Call) -> Lines:
@@ -231,9 +222,7 @@ class Queries:
         if quiet:
             sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115, PTH123 (until the process ends)
         if verb is None and not {"-h", "--help"} & set(words):
-            print(
-                f"[{self.tool.name}] Error: no command given.  Try '{self.tool.name} help'", file=sys.stderr
-            )
+            print(f"[{self.tool.name}] Error: no command given.  Try '{self.tool.name} help'", file=sys.stderr)
             return 0
         if verb is None or verb == "help":
             print(self.tool.help())

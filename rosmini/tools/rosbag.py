@@ -74,9 +74,7 @@ class BagInfos(Result):
 
 
 def _info_parser() -> Parser:
-    parser = Parser(
-        "rosbag info [options] BAGFILE1 [BAGFILE2 BAGFILE3 ...]", "Summarize bag files.", "info drive.bag"
-    )
+    parser = Parser("rosbag info [options] BAGFILE1 [BAGFILE2 BAGFILE3 ...]", "Summarize bag files.", "info drive.bag")
     parser.add_option("-y", "--yaml", action="store_true", default=False, help="print YAML")
     parser.add_option("-k", "--key", help="print the value at a key, such as duration or topics[0].type")
     parser.add_option("--freq", action="store_true", default=False, help="print how often messages came")
@@ -112,15 +110,11 @@ class TypeChanges(Result):
     def __str__(self) -> str:
         if not self.changes:
             return "Bag file does not need any migrations."
-        return "\n".join(
-            ["The following migrations need to occur:", *(f" * {change}" for change in self.changes)]
-        )
+        return "\n".join(["The following migrations need to occur:", *(f" * {change}" for change in self.changes)])
 
 
 def _check_parser() -> Parser:
-    return Parser(
-        "rosbag check BAG", "List the types in a bag that differ from this system's.", "check drive.bag"
-    )
+    return Parser("rosbag check BAG", "List the types in a bag that differ from this system's.", "check drive.bag")
 
 
 @TOOL.verb("list the types in a bag that differ from this system's", parser=_check_parser)
@@ -156,9 +150,7 @@ def _filter_parser() -> Parser:
         "t.secs, t.to_sec()). It can compute and compare; it cannot import, open or change anything.",
         "filter drive.bag turns.bag \"topic == '/cmd_vel' and m.angular.z != 0\"",
     )
-    parser.add_option(
-        "-p", "--print", dest="shown", metavar="PRINT-EXPRESSION", help="print this of each message"
-    )
+    parser.add_option("-p", "--print", dest="shown", metavar="PRINT-EXPRESSION", help="print this of each message")
     return parser
 
 
@@ -239,9 +231,7 @@ class Fix(Written):
 
 def _compression(parser: Parser, default: str) -> None:
     const: dict[str, Any] = {"action": "store_const", "dest": "compression"}
-    parser.add_option(
-        "-j", "--bz2", const=Compression.BZ2, default=default, help="compress with bz2", **const
-    )
+    parser.add_option("-j", "--bz2", const=Compression.BZ2, default=default, help="compress with bz2", **const)
     parser.add_option("--lz4", const=Compression.LZ4, help="compress with lz4", **const)
 
 
@@ -250,9 +240,7 @@ def _parser_of(verb: str, text: str, *, compresses: bool = False) -> Callable[[]
 
     def make() -> Parser:
         parser = Parser(f"rosbag {verb} [options] BAGFILE1 [BAGFILE2 ...]", text, f"{verb} drive.bag")
-        parser.add_option(
-            "--output-dir", metavar="DIR", help="write to the folder DIR, and leave the bags as they are"
-        )
+        parser.add_option("--output-dir", metavar="DIR", help="write to the folder DIR, and leave the bags as they are")
         parser.add_option(
             "-f", "--force", action="store_true", default=False, help="overwrite the backup of an earlier run"
         )
@@ -316,9 +304,7 @@ def compress(given: Values, _call: Call) -> Written:
 @TOOL.verb("decompress bag files", parser=_DECOMPRESS)
 def decompress(given: Values, _call: Call) -> Written:
     """Decompress bag files."""
-    return _rewrite(
-        _DECOMPRESS, given, lambda source, target: _recompressed(source, target, Compression.NONE)
-    )
+    return _rewrite(_DECOMPRESS, given, lambda source, target: _recompressed(source, target, Compression.NONE))
 
 
 @TOOL.verb("make a new index, for a recording that was cut off", name="reindex", parser=_REINDEX)

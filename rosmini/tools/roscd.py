@@ -55,9 +55,7 @@ def located(location: str, command: str, index: PackageIndex | None = None) -> P
     name, _, rest = location.partition("/")
     index = PackageIndex() if index is None else index
     if name == LOG:
-        folder = Path(
-            os.environ.get("ROS_LOG_DIR") or Path(os.environ.get("ROS_HOME") or Path.home() / ".ros", "log")
-        )
+        folder = Path(os.environ.get("ROS_LOG_DIR") or Path(os.environ.get("ROS_HOME") or Path.home() / ".ros", "log"))
     elif name in index.stacks() and name not in index:
         folder = index.find_stack(name).path
     else:

@@ -78,9 +78,7 @@ def main(args: argparse.Namespace) -> int:
 
     others = Remappings.other_arguments(args.words)
     if others:
-        raise RosminiError(
-            f"roscore takes no argument {others[0]!r}; `rosmini roscore --help` shows what it takes"
-        )
+        raise RosminiError(f"roscore takes no argument {others[0]!r}; `rosmini roscore --help` shows what it takes")
     where = addresses(arguments=Remappings.from_argv(args.words).special)
     port = args.port or where.master[1]
     end_as_ctrl_c()
@@ -181,11 +179,7 @@ def introduce(graph: Graph, where: Addresses, server: MasterServer, *, with_roso
         f"ROS_MASTER_URI={graph.master_uri}",
         "",
         f"setting /run_id to {roscore.ask('getParam', '/run_id')}",
-        *(
-            [f"process[rosout-1]: started with pid [{pid}]", "started core service [/rosout]"]
-            if with_rosout
-            else []
-        ),
+        *([f"process[rosout-1]: started with pid [{pid}]", "started core service [/rosout]"] if with_rosout else []),
     ]
     print("\n".join(lines), flush=True)
     if where.announcement is not None:

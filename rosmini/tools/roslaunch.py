@@ -68,9 +68,7 @@ def parser() -> LaunchParser:
     made.flag("--files", dest="file_list", help="print the files that are read")
     made.add_option("--args", dest="node_args", metavar="NODE_NAME", help="print the command line of a node")
     made.flag("--nodes", dest="node_list", help="print the names of all nodes")
-    made.add_option(
-        "--find-node", dest="find_node", metavar="NODE_NAME", help="print the file that has a node"
-    )
+    made.add_option("--find-node", dest="find_node", metavar="NODE_NAME", help="print the file that has a node")
     made.flag("--dump-params", dest="dump_params", help="print all parameters as YAML")
     made.flag("--ros-args", dest="ros_args", help="print the arguments of the launch file")
     made.flag("--check", help="read everything, and name all that is missing (not in ROS)")
@@ -81,9 +79,7 @@ def parser() -> LaunchParser:
     made.flag("--local", dest="local_only", help="do not mind nodes for other machines")
     made.flag("--wait", dest="wait_for_master", help="wait for a Master; do not start one")
     made.flag("--no-summary", dest="no_summary", help="hide the summary")
-    made.flag(
-        "--skip-log-check", "--disable-title", "-v", dest="ignored", help="accepted, and without effect here"
-    )
+    made.flag("--skip-log-check", "--disable-title", "-v", dest="ignored", help="accepted, and without effect here")
     made.add_option("-p", "--port", help="port of the Master, if one is started", metavar="PORT")
     made.add_option("--pid", dest="pid_fn", metavar="FILE", help="write the number of this process to a file")
     for name, default in (("sigint", 15.0), ("sigterm", 2.0)):
@@ -96,10 +92,7 @@ def parser() -> LaunchParser:
     made.flag("--sim-time", help="with --one-process: simulated time, as fast as possible")
     made.flag("--wall-time", help="with --one-process: wall time, also with --duration")
     made.add_option(
-        "--duration",
-        type="float",
-        metavar="S",
-        help="with --one-process: end after S seconds; simulated time",
+        "--duration", type="float", metavar="S", help="with --one-process: end after S seconds; simulated time"
     )
     return made
 
@@ -259,9 +252,7 @@ def answer(given: Values, plan: Plan, packages: PackageIndex) -> Lines:
     if given.node_args:
         node = plan.node(given.node_args)
         extra = {"ROS_NAMESPACE": node.namespace.rstrip("/"), **dict(node.environment)}
-        shown = [
-            f'{name}="{value}"' for name, value in extra.items() if value and os.environ.get(name) != value
-        ]
+        shown = [f'{name}="{value}"' for name, value in extra.items() if value and os.environ.get(name) != value]
         prefix = [node.launch_prefix] if node.launch_prefix else []
         text = " ".join([*shown, *prefix, *program(node, packages, os.environ).words, *node.words()])
     elif given.node_list:
@@ -315,13 +306,9 @@ def in_one_process(plan: Plan, given: Values, nodes: Sequence[str]) -> int:
     plan.warnings += differences(plan)
     end_as_ctrl_c()
     with seldom(), Graph(simulated=simulated, strict=False) as graph:
-        say, warn = (
-            partial(print, file=stream, flush=True) for stream in (sys.stdout, sys.stderr)
-        )  # not a script's
+        say, warn = (partial(print, file=stream, flush=True) for stream in (sys.stdout, sys.stderr))  # not a script's
         timeouts = {"sigint_timeout": given.sigint_timeout, "sigterm_timeout": given.sigterm_timeout}
-        launch = Launch(
-            plan, graph, in_graph(graph, to_log=bool(given.force_log)), say=say, warn=warn, **timeouts
-        )
+        launch = Launch(plan, graph, in_graph(graph, to_log=bool(given.force_log)), say=say, warn=warn, **timeouts)
         launch.start()
         try:
             if specs:

@@ -22,17 +22,13 @@ def _parser() -> ArgumentParser:
         "What is in the folder of a package.",
         epilog="for example: rosmini rosls turtlebot3_description/urdf",
     )
-    parser.add_argument(
-        "location", nargs="?", help="PACKAGE or PACKAGE/FOLDER; by default the working folder"
-    )
+    parser.add_argument("location", nargs="?", help="PACKAGE or PACKAGE/FOLDER; by default the working folder")
     return parser
 
 
 def names(path: Path) -> list[str]:
     """Return the contents of a folder like ls: sorted, without hidden files; for a file, its path."""
-    return (
-        [name for name in files.names_in(path) if not name.startswith(".")] if path.is_dir() else [str(path)]
-    )
+    return [name for name in files.names_in(path) if not name.startswith(".")] if path.is_dir() else [str(path)]
 
 
 @TOOL.verb("list what is in the folder of a package", name="list", parser=_parser, takes="location")

@@ -90,9 +90,7 @@ class _Verbs:
 
     def show_parser(self, verb: str) -> Parser:
         """Return the parser of ``show`` and ``info``."""
-        text = (
-            f"Show the definition of a {self.kind.name} type; of a name without a package, all of that name."
-        )
+        text = f"Show the definition of a {self.kind.name} type; of a name without a package, all of that name."
         example = "nav_msgs/GetPlan" if self.kind is not MESSAGE else "geometry_msgs/Pose"
         parser = self.parser(f"{verb} [options] <{self.kind.name} type>", text, f"{verb} {example}")
         parser.flag("-r", "--raw", dest="raw", help="as in its file, with comments")
@@ -102,9 +100,7 @@ class _Verbs:
     def show(self, given: Values, call: Call) -> Definitions:
         """Show definitions."""
         usage = self.show_parser("show")
-        name = self.the_word(given, call, usage, f"{self.kind.name} type").removesuffix(
-            f".{self.kind.ending}"
-        )
+        name = self.the_word(given, call, usage, f"{self.kind.name} type").removesuffix(f".{self.kind.ending}")
         written = "Please refer to msg/srv types as 'package_name/Type'."
         if "::" in name:
             usage.error(f"{self.tool} does not understand C++-style namespaces (i.e. '::').\n{written}")
@@ -117,9 +113,7 @@ class _Verbs:
         found = self.kind.search(name)
         if not found:
             raise VerbError(f"Could not find msg '{name}'\n{self.kind.what_next(name)}")
-        return Definitions(
-            definitions={one: self._text(one, raw=given.raw) for one in found}, with_names=True
-        )
+        return Definitions(definitions={one: self._text(one, raw=given.raw) for one in found}, with_names=True)
 
     def _text(self, name: str, *, raw: bool) -> str:
         try:
@@ -152,9 +146,7 @@ class _Verbs:
         """Return the parser of ``md5``."""
         example = "std_srvs/SetBool" if self.kind is not MESSAGE else "std_msgs/String"
         return self.parser(
-            f"md5 <{self.kind.name} type>",
-            "Print the md5 sum of a type: what two nodes compare.",
-            f"md5 {example}",
+            f"md5 <{self.kind.name} type>", "Print the md5 sum of a type: what two nodes compare.", f"md5 {example}"
         )
 
     def md5(self, given: Values, call: Call) -> Sums:
@@ -199,9 +191,7 @@ class _Verbs:
 
     def packages_parser(self) -> Parser:
         """Return the parser of ``packages``."""
-        parser = self.parser(
-            "packages", f"List the packages that define {self.kind.name} types.", "packages -s"
-        )
+        parser = self.parser("packages", f"List the packages that define {self.kind.name} types.", "packages -s")
         parser.flag("-s", dest="single_line", help="all in one line")
         return parser
 

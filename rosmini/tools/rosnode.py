@@ -50,9 +50,7 @@ class Pings(Result):
 
 
 def _ping_parser() -> Parser:
-    parser = _parser(
-        "ping [options] <node>", "Ask a node whether it is there, once a second.", "ping -c 3 /talker"
-    )
+    parser = _parser("ping [options] <node>", "Ask a node whether it is there, once a second.", "ping -c 3 /talker")
     parser.flag("--all", "-a", dest="ping_all", help="ping all nodes, once")
     parser.add_option("-c", dest="count", metavar="COUNT", type="int", help="so many pings; not with --all")
     return parser

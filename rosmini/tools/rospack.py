@@ -13,9 +13,7 @@ from .terminal import Terminal
 if TYPE_CHECKING:
     from rosmini.tools.dependencies import Dependencies
 
-TOOL = Tool(
-    "rospack", "packages: where they are, what they need, what they export", usage_status=1, needs_graph=False
-)
+TOOL = Tool("rospack", "packages: where they are, what they need, what they export", usage_status=1, needs_graph=False)
 QUERIES = Queries(TOOL, stacks=False)
 QUERIES.register()
 add_parser, main = Terminal(TOOL).add_parser, QUERIES.main
@@ -26,23 +24,18 @@ VERSION_CONTROL = "vcs vcs0"
 
 
 @TOOL.verb(
-    "list packages that are found more than once",
-    name="list-duplicates",
-    parser=QUERIES.parser("list-duplicates"),
+    "list packages that are found more than once", name="list-duplicates", parser=QUERIES.parser("list-duplicates")
 )
 def list_duplicates(_given: argparse.Namespace, _call: Call) -> Lines:
     """Return each package that is found more than once, with its folders; the first is used."""
     found = QUERIES.known().index.duplicates()
     return Lines(
-        lines=tuple(
-            line for name, paths in found.items() for line in (name, *(f"- {path}" for path in paths))
-        )
+        lines=tuple(line for name, paths in found.items() for line in (name, *(f"- {path}" for path in paths)))
     )
 
 
 @TOOL.verb(
-    "list what packages export to one: its plugins",
-    parser=QUERIES.parser("plugins", "attrib", "top", named="package"),
+    "list what packages export to one: its plugins", parser=QUERIES.parser("plugins", "attrib", "top", named="package")
 )
 def plugins(given: argparse.Namespace, _call: Call) -> Lines:
     """Return the exports of packages for another one: an attribute's value of each, with ``${prefix}`` replaced."""
@@ -54,11 +47,7 @@ def plugins(given: argparse.Namespace, _call: Call) -> Lines:
         asked = known.dependents(name, direct=True)[0]
         if given.top:
             asked = [each for each in asked if each in {given.top, *known.all_of(given.top)}]
-        return [
-            f"{each} {value}"
-            for each in (name, *asked)
-            for value in _exported(known, each, name, given.attrib)
-        ]
+        return [f"{each} {value}" for each in (name, *asked) for value in _exported(known, each, name, given.attrib)]
 
     return QUERIES.lines(given, ask)
 
@@ -74,9 +63,7 @@ def export(given: argparse.Namespace, _call: Call) -> Lines:
 
     def ask(known: Dependencies, name: str) -> list[str]:
         packages = [*([] if given.deps_only else [name]), *reversed(known.all_of(name))]
-        return [
-            " ".join(value for each in packages for value in _exported(known, each, given.lang, given.attrib))
-        ]
+        return [" ".join(value for each in packages for value in _exported(known, each, given.lang, given.attrib))]
 
     return QUERIES.lines(given, ask)
 
@@ -108,13 +95,5 @@ _refuse(
     SYSTEM, "(packages of the system: not here)",
     "this asks rosdep for packages of the system, and rosmini needs none; `rosmini rospack depends` lists ROS packages",
 )  # fmt: skip
-_refuse(
-    VERSION_CONTROL,
-    "(version control of rosbuild: not here)",
-    "this was for rosbuild's <versioncontrol>; ask git",
-)
-_refuse(
-    "langs",
-    "(client libraries of rosbuild: not here)",
-    "this was for rosbuild; the client library here is rospy",
-)
+_refuse(VERSION_CONTROL, "(version control of rosbuild: not here)", "this was for rosbuild's <versioncontrol>; ask git")
+_refuse("langs", "(client libraries of rosbuild: not here)", "this was for rosbuild; the client library here is rospy")

@@ -34,9 +34,7 @@ class _Parser(Parser):
 
     def parse(self, words: Sequence[str], /) -> Values:
         """Return the options, and the other words as ``words``. Raises ``UsageError``."""
-        numbers = {
-            f"\0{at}": word for at, word in enumerate(words) if word[:1] == "-" and word[1:2].isdigit()
-        }
+        numbers = {f"\0{at}": word for at, word in enumerate(words) if word[:1] == "-" and word[1:2].isdigit()}
         hidden = [f"\0{at}" if f"\0{at}" in numbers else word for at, word in enumerate(words)]
         values = super().parse(hidden)
         values.words = [numbers.get(word, word) for word in values.words]
@@ -68,9 +66,7 @@ def _client(call: Call) -> ParamClient:
 
 def _unset(call: Call, what: str, name: str) -> VerbError:
     known = _client(call).list_params("/")
-    within = sorted(
-        {"/".join(each.split("/")[:end]) for each in known for end in range(2, each.count("/") + 2)}
-    )
+    within = sorted({"/".join(each.split("/")[:end]) for each in known for end in range(2, each.count("/") + 2)})
     hint = nearest(name, within) or "`rosparam list` lists the parameters that there are."
     return VerbError(f"ERROR: {what} [{name}] is not set\n{hint}")
 
@@ -103,9 +99,7 @@ def _set_parser() -> Parser:
     text = "Set a parameter to a value in YAML; a dictionary is merged into what is there."
     parser = _parser("set [options] parameter value", text, "set /gains '{p: 1.0, i: 0.1}'")
     parser.add_option("-t", "--textfile", dest="text_file", metavar="TEXT_FILE", help="to the text of a file")
-    parser.add_option(
-        "-b", "--binfile", dest="bin_file", metavar="BINARY_FILE", help="to the bytes of a file"
-    )
+    parser.add_option("-b", "--binfile", dest="bin_file", metavar="BINARY_FILE", help="to the bytes of a file")
     return parser
 
 
@@ -142,9 +136,7 @@ def _content(path: str, usage: Parser, *, text: bool) -> str | bytes:
     try:
         return Path(path).read_text(encoding="utf-8") if text else Path(path).read_bytes()
     except UnicodeDecodeError as error:
-        raise VerbError(
-            f"ERROR: {path} is not UTF-8 text; -b sets a parameter to the bytes of a file"
-        ) from error
+        raise VerbError(f"ERROR: {path} is not UTF-8 text; -b sets a parameter to the bytes of a file") from error
     except OSError as error:
         raise VerbError(f"ERROR: {path} cannot be read: {error.strerror}") from error
 
@@ -172,9 +164,7 @@ class Empty(Parameter):
 
 
 def _get_parser() -> Parser:
-    parser = _parser(
-        "get [options] parameter", "Print a parameter, or a namespace, as YAML.", "get -p /gains"
-    )
+    parser = _parser("get [options] parameter", "Print a parameter, or a namespace, as YAML.", "get -p /gains")
     parser.flag("-p", dest="pretty", help="for reading; not always YAML")
     return parser
 

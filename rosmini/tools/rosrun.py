@@ -46,9 +46,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument(
-        "--prefix", default="", metavar="CMD", help="the words before the command: nice, gdb --args"
-    )
+    parser.add_argument("--prefix", default="", metavar="CMD", help="the words before the command: nice, gdb --args")
     parser.add_argument("-d", "--debug", action="store_true", help="say which file is run")
     parser.add_argument("package", metavar="PACKAGE")
     parser.add_argument("executable", metavar="EXECUTABLE")
@@ -62,10 +60,7 @@ def main(args: argparse.Namespace) -> int:
 
     program = _program(args.package, args.executable)
     if args.debug:
-        print(
-            f"[rosrun] {args.package}/{args.executable} is {program or 'run by rosmini itself'}",
-            file=sys.stderr,
-        )
+        print(f"[rosrun] {args.package}/{args.executable} is {program or 'run by rosmini itself'}", file=sys.stderr)
     if args.prefix:
         command = (program,) if program else (*ROSRUN, args.package, args.executable)
         return _become((*shlex.split(args.prefix), *command, *args.words))
@@ -116,10 +111,7 @@ def _warn_of_a_robot(path: Path) -> None:
     for finding in check_script(path):
         if finding.line in (None, 1):
             where = path if finding.line is None else f"{path}:{finding.line}"
-            print(
-                f"rosmini rosrun: {where}: {finding.message}. It runs here, and not on a robot",
-                file=sys.stderr,
-            )
+            print(f"rosmini rosrun: {where}: {finding.message}. It runs here, and not on a robot", file=sys.stderr)
 
 
 def _become(words: Sequence[str]) -> int:

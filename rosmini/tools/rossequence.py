@@ -28,12 +28,7 @@ def _parser() -> Parser:
         example="  rosmini rossequence /chatter --duration 1 + rosmini_sim/simulator",
     )  # fmt: skip
     parser.add_option(
-        "-n",
-        dest="count",
-        type="int",
-        default=DEFAULT_CALLS,
-        metavar="N",
-        help=f"the first N calls ({DEFAULT_CALLS})",
+        "-n", dest="count", type="int", default=DEFAULT_CALLS, metavar="N", help=f"the first N calls ({DEFAULT_CALLS})"
     )
     parser.add_option("--since", type="float", metavar="T", help="only from T s of the graph's time on")
     parser.add_option("--last", type="float", metavar="S", help="only the last S seconds of the graph's time")

@@ -12,13 +12,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from rosmini.core.errors import (
-    MessageException,
-    ROSException,
-    SerializationError,
-    ServiceException,
-    TransportException,
-)
+from rosmini.core.errors import MessageException, ROSException, SerializationError, ServiceException, TransportException
 from rosmini.core.verbs import Call, Lines, Overview, Parser, Result, Tool, VerbError, global_name, tool_node
 from rosmini.ros.introspection import services
 
@@ -280,9 +274,7 @@ def info(given: Values, call: Call) -> ServiceInfo:
     uri, kind = services.uri_of(call.peers, name), _type_of(call, name)
     if uri is None or kind is None:
         raise VerbError(f"Node: {node}\nERROR: service is no longer available", status=0)
-    return ServiceInfo(
-        node=node, uri=uri, type=kind, args=" ".join(_class_of(call, name)._request_class.__slots__)
-    )
+    return ServiceInfo(node=node, uri=uri, type=kind, args=" ".join(_class_of(call, name)._request_class.__slots__))
 
 
 def _list_parser() -> Parser:
@@ -333,11 +325,7 @@ def _node_parser() -> Parser:
 
 
 @TOOL.verb(
-    "print the node that offers a service",
-    parser=_node_parser,
-    only_asks=True,
-    is_listed=False,
-    takes="service",
+    "print the node that offers a service", parser=_node_parser, only_asks=True, is_listed=False, takes="service"
 )
 def node(given: Values, call: Call) -> Lines:
     """Return the node that offers a service."""

@@ -11,9 +11,7 @@ from rosmini.core.verbs import Call, Lines, Tool
 from .package_queries import Queries
 from .terminal import Terminal
 
-TOOL = Tool(
-    "rosstack", "stacks and metapackages: where they are, what is in them", usage_status=1, needs_graph=False
-)
+TOOL = Tool("rosstack", "stacks and metapackages: where they are, what is in them", usage_status=1, needs_graph=False)
 QUERIES = Queries(TOOL, stacks=True)
 QUERIES.register()
 add_parser, main = Terminal(TOOL).add_parser, QUERIES.main

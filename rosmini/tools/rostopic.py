@@ -22,10 +22,7 @@ TOOL.verb("display bandwidth used by topic", name="bw", parser=rostopic_rates.bw
     rostopic_rates.bw
 )
 TOOL.verb(
-    "display delay of topic from timestamp in header",
-    name="delay",
-    parser=rostopic_rates.delay_parser,
-    takes="topic",
+    "display delay of topic from timestamp in header", name="delay", parser=rostopic_rates.delay_parser, takes="topic"
 )(rostopic_rates.delay)
 TOOL.verb(
     "print messages to screen",
@@ -41,11 +38,7 @@ TOOL.verb("display publishing rate of topic    ", name="hz", parser=rostopic_rat
     rostopic_rates.hz
 )
 TOOL.verb(
-    "print information about active topic",
-    name="info",
-    parser=rostopic_list.info_parser,
-    only_asks=True,
-    takes="topic",
+    "print information about active topic", name="info", parser=rostopic_list.info_parser, only_asks=True, takes="topic"
 )(rostopic_list.info)
 TOOL.verb("list active topics", name="list", parser=rostopic_list.list_parser, only_asks=True, takes="topic")(
     rostopic_list.list_
@@ -53,6 +46,6 @@ TOOL.verb("list active topics", name="list", parser=rostopic_list.list_parser, o
 TOOL.verb("publish data to topic", name="pub", parser=rostopic_pub.pub_parser, takes="topic msg value")(
     rostopic_pub.pub
 )
-TOOL.verb(
-    "print topic or field type", name="type", parser=rostopic_list.type_parser, only_asks=True, takes="topic"
-)(rostopic_list.type_)
+TOOL.verb("print topic or field type", name="type", parser=rostopic_list.type_parser, only_asks=True, takes="topic")(
+    rostopic_list.type_
+)

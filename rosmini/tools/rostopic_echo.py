@@ -5,17 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from rosmini.core.verbs import (
-    SECOND,
-    Call,
-    Result,
-    Span,
-    VerbError,
-    add_duration,
-    duration_ns,
-    global_name,
-    tool_node,
-)
+from rosmini.core.verbs import SECOND, Call, Result, Span, VerbError, add_duration, duration_ns, global_name, tool_node
 
 from .listening import await_topic, class_for, predicate
 from .rostopic_list import check_bag, parser_of
@@ -44,9 +34,7 @@ class Echoed(Result):
 
 def echo_parser() -> Parser:
     """Return the parser of ``rostopic echo``."""
-    parser = parser_of(
-        "echo [options] /topic", "Print messages, or a field of them.", "echo -n 3 /scan/ranges[0:5]"
-    )
+    parser = parser_of("echo [options] /topic", "Print messages, or a field of them.", "echo -n 3 /scan/ranges[0:5]")
     add = parser.add_option
     add("-b", "--bag", metavar="BAGFILE", help="messages of a bag, instead of live ones")
     parser.flag("-p", dest="plot", help="a line of comma-separated values for each, for programs that plot")
@@ -119,9 +107,7 @@ def _warn_if_nothing_comes(echoer: _Echo, span: Span) -> None:
     for _ in Span.of(span.graph, NO_MESSAGES_NS).every(SECOND // 10):
         if echoer.count or echoer.is_done:
             return
-    echoer.call.warn(
-        "WARNING: no messages received and simulated time is active.\nIs /clock being published?"
-    )
+    echoer.call.warn("WARNING: no messages received and simulated time is active.\nIs /clock being published?")
 
 
 def _echo_bag(given: Values, options: _Options, call: Call) -> Echoed:
@@ -172,9 +158,7 @@ class _Echo:
         try:
             self._read = reader(path)
         except FieldError as error:
-            raise VerbError(
-                f"{error}\nExamples: /scan/ranges[0], /scan/ranges[0:3], /odom/pose/pose"
-            ) from error
+            raise VerbError(f"{error}\nExamples: /scan/ranges[0], /scan/ranges[0:3], /odom/pose/pose") from error
         plain = "/".join(part.partition("[")[0] for part in path.split("/"))
         self._kind = field_type(kind, plain) if plain.strip("/") else None
         if self._kind is not None and path.rstrip("/").endswith("]"):

@@ -52,19 +52,14 @@ class TopicList(Result):
         if self.sides[0]:
             lines += [f"{indent}Published topics:", *_topic_lines(found.published, "publisher", indent)]
         if self.sides[1]:
-            lines += [
-                indent,
-                f"{indent}Subscribed topics:",
-                *_topic_lines(found.subscribed, "subscriber", indent),
-            ]
+            lines += [indent, f"{indent}Subscribed topics:", *_topic_lines(found.subscribed, "subscriber", indent)]
         return "\n".join(lines[0 if self.sides[0] else 1 :]) + "\n"
 
 
 def _topic_lines(side: tuple[Topic, ...], what: str, indent: str) -> list[str]:
     counted = ((each, len(each.nodes)) for each in side)
     return [
-        f"{indent} * {each.name} [{each.type}] {count} {what}{'' if count == 1 else 's'}"
-        for each, count in counted
+        f"{indent} * {each.name} [{each.type}] {count} {what}{'' if count == 1 else 's'}" for each, count in counted
     ]
 
 
@@ -173,9 +168,7 @@ class TopicInfo(Result):
 def info_parser() -> Parser:
     """Return the parser of ``rostopic info``."""
     parser = parser_of("info /topic", "Show the type of a topic, and who is on it.", "info /chatter")
-    parser.flag(
-        "-v", dest="verbose", help="with the number of messages that full queues have dropped (not in ROS)"
-    )
+    parser.flag("-v", dest="verbose", help="with the number of messages that full queues have dropped (not in ROS)")
     return parser
 
 
@@ -206,17 +199,13 @@ class TopicType(Result):
 
 def type_parser() -> Parser:
     """Return the parser of ``rostopic type``."""
-    return parser_of(
-        "type /topic/field", "Say of which type a topic is, or a field of it.", "type /chatter/data"
-    )
+    return parser_of("type /topic/field", "Say of which type a topic is, or a field of it.", "type /chatter/data")
 
 
 def type_(given: Values, call: Call) -> TopicType:
     """Return the type of a topic or of a field."""
     if len(given.words) != 1:
-        type_parser().error(
-            "topic must be specified" if not given.words else "you may only specify one input topic"
-        )
+        type_parser().error("topic must be specified" if not given.words else "you may only specify one input topic")
     name = global_name(given.words[0])
     found = topics.look_up(call.peers, name)
     if found is None:
@@ -228,9 +217,7 @@ def type_(given: Values, call: Call) -> TopicType:
 
     kind = field_type(found.type, path)
     if kind is None:
-        raise VerbError(
-            f"unknown topic type [{name}]\n{found.topic} has messages of {found.type}, without {path}"
-        )
+        raise VerbError(f"unknown topic type [{name}]\n{found.topic} has messages of {found.type}, without {path}")
     return TopicType(type=found.type, field=path, field_type=kind)
 
 

@@ -15,17 +15,7 @@ from rosmini.core.errors import (
     UnknownPackage,
     UnknownType,
 )
-from rosmini.core.verbs import (
-    SECOND,
-    Call,
-    Result,
-    Span,
-    VerbError,
-    add_duration,
-    duration_ns,
-    global_name,
-    tool_node,
-)
+from rosmini.core.verbs import SECOND, Call, Result, Span, VerbError, add_duration, duration_ns, global_name, tool_node
 
 from .rostopic_list import parser_of
 from .values import WrongYaml, documents_of, fields_of, fill, listed, parse, typed
@@ -66,15 +56,9 @@ def pub_parser() -> Parser:
     add("-r", "--rate", metavar="RATE", help="so many messages a second (10 from a file or standard input)")
     parser.flag("-1", "--once", dest="once", help="publish one message and end")
     add("-f", "--file", metavar="FILE", help="messages from a YAML file, with --- between them")
-    parser.flag(
-        "-l", "--latch", dest="latch", help="with -r, -f or standard input: latch, for late subscribers"
-    )
-    parser.flag(
-        "-s", "--substitute-keywords", dest="substitute", help="with -r: fill in now and auto each time anew"
-    )
-    parser.flag(
-        "--use-rostime", dest="use_rostime", help="the time of /clock for now and auto, if there is one"
-    )
+    parser.flag("-l", "--latch", dest="latch", help="with -r, -f or standard input: latch, for late subscribers")
+    parser.flag("-s", "--substitute-keywords", dest="substitute", help="with -r: fill in now and auto each time anew")
+    parser.flag("--use-rostime", dest="use_rostime", help="the time of /clock for now and auto, if there is one")
     add_duration(parser)
     return parser
 
@@ -118,18 +102,11 @@ def pub(given: Values, call: Call) -> Published:
     """Publish messages."""
     wish = _wish(given)
     cls = _class_of(wish.type)
-    if (
-        not wish.values
-        and cls.__slots__
-        and not given.file
-        and (call.read_line is None or sys.stdin.isatty())
-    ):
+    if not wish.values and cls.__slots__ and not given.file and (call.read_line is None or sys.stdin.isatty()):
         pub_parser().error(f"Please specify message values\nA {wish.type} has the fields: {fields_of(cls)}")
     with tool_node(call.graph) as node:
         try:
-            publisher = node.publisher(
-                wish.topic, cls, queue_size=100, latch=wish.rate is None or given.latch
-            )
+            publisher = node.publisher(wish.topic, cls, queue_size=100, latch=wish.rate is None or given.latch)
             work = _Work(given, wish, call, node, publisher, cls)
             if wish.values or not cls.__slots__:
                 return work.publish_one(wish.values)
@@ -174,9 +151,7 @@ def _in_file(path: str) -> Iterator[Any]:
 class _Work:
     """Publishes messages according to the options."""
 
-    def __init__(
-        self, given: Values, wish: _Wish, call: Call, node: Node, publisher: Publisher, cls: Any
-    ) -> None:
+    def __init__(self, given: Values, wish: _Wish, call: Call, node: Node, publisher: Publisher, cls: Any) -> None:
         self._given, self._call, self._node, self._publisher, self._class = given, call, node, publisher, cls
         self._rate = wish.rate
         if wish.rate is not None:
@@ -246,11 +221,7 @@ class _Work:
             self._call.say(f"publishing {message}")
 
     def _say_latched(self, message: Any, *, brief: bool) -> None:
-        what = (
-            f"publishing and latching [{message}]"
-            if self._given.verbose
-            else "publishing and latching message"
-        )
+        what = f"publishing and latching [{message}]" if self._given.verbose else "publishing and latching message"
         self._call.say(what + (f" for {ONCE_S} seconds" if brief else ". Press ctrl-C to terminate"))
 
     def _send(self, message: Any) -> None:

@@ -5,17 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from rosmini.core.verbs import (
-    SECOND,
-    Call,
-    Result,
-    Span,
-    VerbError,
-    add_duration,
-    duration_ns,
-    global_name,
-    tool_node,
-)
+from rosmini.core.verbs import SECOND, Call, Result, Span, VerbError, add_duration, duration_ns, global_name, tool_node
 
 from .listening import await_topic, class_for, predicate
 from .rostopic_list import parser_of

@@ -52,6 +52,4 @@ def _version(given: argparse.Namespace, _call: Call) -> Lines:
         return Lines(lines=(version(given.package, index),), end=end)
     except UnknownPackage:
         hint = nearest(given.package, [*index.names(), *index.stacks()])
-        return Lines(
-            lines=(f"Cannot locate [{given.package}]",), complaints=(hint,) if hint else (), status=1
-        )
+        return Lines(lines=(f"Cannot locate [{given.package}]",), complaints=(hint,) if hint else (), status=1)

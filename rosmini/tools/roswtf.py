@@ -93,9 +93,7 @@ def look(given: Values, call: Call) -> Diagnosis:
         heard = _listen(call, given.duration)
         graph = survey(call.peers)
     except MasterUnreachable as error:
-        return Diagnosis(
-            context=context, static=tuple(static), online=None, offline_because=str(error), status=1
-        )
+        return Diagnosis(context=context, static=tuple(static), online=None, offline_because=str(error), status=1)
     online = [found for rule in graph_rules.RULES for found in rule(graph)]
     online += [found for tf_rule in heard_rules.RULES for found in tf_rule(heard)]
     if plan is not None and not isinstance(plan, Finding):
@@ -145,9 +143,7 @@ def _listen(call: Call, seconds: float) -> Heard:
                 now = graph.now().to_nsec() or None  # simulated time that has not begun
                 for each in message.transforms:
                     stamp = each.header.stamp.to_nsec()
-                    parent, child = (
-                        frame.lstrip("/") for frame in (each.header.frame_id, each.child_frame_id)
-                    )
+                    parent, child = (frame.lstrip("/") for frame in (each.header.frame_id, each.child_frame_id))
                     heard.transforms.append(Transform(parent, child, sender, stamp, now, is_static))
 
             return hear

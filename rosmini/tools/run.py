@@ -78,9 +78,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     add_options(parser)
-    parser.add_argument(
-        "words", nargs=argparse.REMAINDER, metavar="NODE [args]", help="the nodes, with + between them"
-    )
+    parser.add_argument("words", nargs=argparse.REMAINDER, metavar="NODE [args]", help="the nodes, with + between them")
     return parser
 
 

@@ -60,9 +60,7 @@ def stub_files() -> tuple[dict[str, str], list[str]]:
     for package in types.source.packages():
         if package in own:
             kinds = [("msg", types.messages(package)), ("srv", types.services(package))]
-            modules |= {
-                f"{package}.{kind}": f"rosmini.msgs.{package}.{kind}" for kind, names in kinds if names
-            }
+            modules |= {f"{package}.{kind}": f"rosmini.msgs.{package}.{kind}" for kind, names in kinds if names}
             continue
         try:
             found = package_stubs(
@@ -97,9 +95,7 @@ def exported(module: str) -> set[str]:
         return set()
     tree = ast.parse(files.read(found.origin))
     for node in tree.body:
-        if isinstance(node, ast.Assign) and any(
-            isinstance(to, ast.Name) and to.id == "__all__" for to in node.targets
-        ):
+        if isinstance(node, ast.Assign) and any(isinstance(to, ast.Name) and to.id == "__all__" for to in node.targets):
             return set(ast.literal_eval(node.value))
     imports = (node for node in tree.body if isinstance(node, (ast.Import, ast.ImportFrom)))
     return {name.asname or name.name for node in imports for name in node.names}

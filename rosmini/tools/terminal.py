@@ -34,9 +34,7 @@ class Terminal:
         """Return the list of verbs in the format of ROS's tools."""
         heading = f"{self.tool.name} is a command-line tool for {self.tool.purpose}.\n\n"
         listed = "\n".join(
-            f"\t{self.tool.name} {verb.name}\t{verb.summary}"
-            for verb in self.tool.verbs.values()
-            if verb.is_listed
+            f"\t{self.tool.name} {verb.name}\t{verb.summary}" for verb in self.tool.verbs.values() if verb.is_listed
         )
         closing = self.tool.overview.closing.format(tool=self.tool.name, example=self.tool.example)
         return f"{heading if self.tool.overview.has_heading else ''}Commands:\n{listed}\n" + (
@@ -45,9 +43,7 @@ class Terminal:
 
     def add_parser(self, subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> object:
         """Add the tool to the parser of `rosmini`, which treats none of its words as options."""
-        parser = subparsers.add_parser(
-            self.tool.name, help=self.tool.summary, add_help=False, prefix_chars="\0"
-        )
+        parser = subparsers.add_parser(self.tool.name, help=self.tool.summary, add_help=False, prefix_chars="\0")
         parser.add_argument("words", nargs=argparse.REMAINDER)
         return parser
 
@@ -105,10 +101,7 @@ class Terminal:
         print(self._overview())
         if words and words[0] not in ("-h", "--help"):
             hint = nearest(words[0], self.tool.verbs)
-            print(
-                f"{self.tool.name}: there is no command {words[0]!r}{f'; {hint}' if hint else ''}",
-                file=sys.stderr,
-            )
+            print(f"{self.tool.name}: there is no command {words[0]!r}{f'; {hint}' if hint else ''}", file=sys.stderr)
         return self.tool.overview.unknown_status if words else self.tool.overview.status
 
     def _in_terminal(self, verb: Verb, own: Sequence[str], nodes: Sequence[str]) -> Result:
@@ -125,9 +118,7 @@ class Terminal:
             )
         from rosmini.core.graph import Graph
 
-        with Graph(
-            strict=False
-        ) as graph:  # what goes wrong in a node is told by that node, and the tool goes on
+        with Graph(strict=False) as graph:  # what goes wrong in a node is told by that node, and the tool goes on
             if nodes:
                 _start(nodes, graph)
             return verb.do(given, Call(graph))

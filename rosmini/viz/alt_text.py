@@ -27,9 +27,7 @@ class AltText:
         alt, caption = own.get("alt"), own.get("caption")
         if not alt:
             return None
-        rendered: list[nodes.Element] = (
-            renderer.render_image_inline(data) if inline else renderer.render_image(data)
-        )
+        rendered: list[nodes.Element] = renderer.render_image_inline(data) if inline else renderer.render_image(data)
         for image in rendered:
             image.setdefault("alt", alt)
         return _figure(rendered, caption) if caption and not inline else rendered

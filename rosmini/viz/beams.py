@@ -134,9 +134,7 @@ def beams_of(scan: Any, lidar: LidarModel | None = None) -> Beams:
     if lidar is not None and lidar.beams != len(ranges):
         raise ViewError(f"a scan has {len(ranges)} ranges, but the {lidar.name} has {lidar.beams} beams")
     angles = first + step * np.arange(len(ranges), dtype=float)
-    return _beams(
-        angles, ranges, float(scan.range_min), float(scan.range_max), getattr(scan.header, "frame_id", "")
-    )
+    return _beams(angles, ranges, float(scan.range_min), float(scan.range_max), getattr(scan.header, "frame_id", ""))
 
 
 def _from_ranges(given: ArrayLike, lidar: LidarModel | None) -> Beams:

@@ -66,9 +66,7 @@ def byte_map(data: bytes, parts: Iterable[tuple[int, str]], *, title: str | None
 def _rows(offset: int, data: bytes, meaning: str) -> list[_Row]:
     is_text = bool(data) and all(0x20 <= byte < 0x7F or byte == 0x0A for byte in data)
     starts = range(0, max(len(data), 1), ACROSS)
-    rows = [
-        _Row(offset + at, data[at : at + ACROSS], meaning if at == 0 else "", is_text) for at in starts[:ROWS]
-    ]
+    rows = [_Row(offset + at, data[at : at + ACROSS], meaning if at == 0 else "", is_text) for at in starts[:ROWS]]
     if len(starts) > ROWS:
         rows.append(_Row(offset + ROWS * ACROSS, b"", f"... {len(data) - ROWS * ACROSS} more bytes", False))
     return rows
@@ -108,9 +106,7 @@ def _row(row: _Row, y: float, label_at: float) -> str:
         x = OFFSET + place * CELL
         parts.append(box(Rect(x + 0.5, y + 1, CELL - 1, HEIGHT - 2), kind, 2))
         parts.append(text(_shown(byte, row.is_text), x + CELL / 2, base, size=12))
-    parts.append(
-        text(row.label, label_at, base, size=style.LABEL_SIZE, colour="label", anchor=None, kind="rm-what")
-    )
+    parts.append(text(row.label, label_at, base, size=style.LABEL_SIZE, colour="label", anchor=None, kind="rm-what"))
     return element("g", "".join(parts), class_=f"rm-{kind}")
 
 

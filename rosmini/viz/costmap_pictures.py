@@ -92,9 +92,7 @@ def costmap_picture(
 def cells_of(grid: Costmap2D, window: Sequence[int] | None = None) -> Cells:
     """Return the costs of a costmap, or of a window of it, and their position. Raises `ViewError`."""
     if not isinstance(grid, Costmap2D):
-        raise ViewError(
-            f"a costmap must be a Costmap2D, not a {type(grid).__name__}; for a Costmap2DROS, use its grid"
-        )
+        raise ViewError(f"a costmap must be a Costmap2D, not a {type(grid).__name__}; for a Costmap2DROS, use its grid")
     if window is None:
         window = (0, 0, grid.width, grid.height)
     x0, y0, xn, yn = (int(value) for value in window)
@@ -127,9 +125,7 @@ def shares(costs: NDArray[np.uint8]) -> list[str]:
 class _Scene:
     """The things drawn on top of the costs."""
 
-    def __init__(
-        self, pose: Pose | None, outline: Floats | None, plan: Floats | None, goal: Floats | None
-    ) -> None:
+    def __init__(self, pose: Pose | None, outline: Floats | None, plan: Floats | None, goal: Floats | None) -> None:
         self.pose, self.plan, self.goal = pose, plan, goal
         self.outline = None if pose is None or outline is None or len(outline) < 3 else outline
 
@@ -156,9 +152,7 @@ class _Scene:
         if self.plan is not None:
             handles.append(Line2D([], [], color=LIGHT["green"], linewidth=TRAIL_WIDTH, label="plan"))
         if self.goal is not None:
-            handles.append(
-                Line2D([], [], color=LIGHT["green"], marker="o", markersize=7.0, linestyle="", label="goal")
-            )
+            handles.append(Line2D([], [], color=LIGHT["green"], marker="o", markersize=7.0, linestyle="", label="goal"))
         if self.outline is not None:
             handles.append(Line2D([], [], color=LIGHT["ink"], linewidth=1.6, label="footprint"))
         return handles

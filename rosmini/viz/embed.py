@@ -134,9 +134,7 @@ def _script_json(data: Mapping[str, Any]) -> str:
 def _base64(value: object) -> str:
     if isinstance(value, bytes | bytearray | memoryview):
         return base64.b64encode(value).decode()
-    raise TypeError(
-        f"a {type(value).__name__} in the data of a picture: give numbers, text, lists, dicts or bytes"
-    )
+    raise TypeError(f"a {type(value).__name__} in the data of a picture: give numbers, text, lists, dicts or bytes")
 
 
 def _book(script_names: Sequence[str], assets: Sequence[str]) -> str:
@@ -147,9 +145,7 @@ def _book(script_names: Sequence[str], assets: Sequence[str]) -> str:
 
 def _live(script_names: Sequence[str], assets: Sequence[str]) -> str:
     """Return the scripts themselves, for an output that must work alone."""
-    scripts = "".join(
-        f"(() => {{{asset_path(name).read_text(encoding='utf-8')}\n}})();" for name in script_names
-    )
+    scripts = "".join(f"(() => {{{asset_path(name).read_text(encoding='utf-8')}\n}})();" for name in script_names)
     if "</script" in scripts.lower():
         raise ViewError(f"one of the scripts {', '.join(script_names)} contains the end of a script element")
     return _ALONE % {"scripts": scripts, "unpacking": unpacking(assets)}
@@ -165,9 +161,7 @@ def _packed(name: str) -> str:
     return base64.b64encode(gzip.compress(asset_path(name).read_bytes(), mtime=0)).decode()
 
 
-_PRINT = (
-    "@media print{.rosmini-still[hidden]{display:block!important}.rosmini-moving{display:none!important}}"
-)
+_PRINT = "@media print{.rosmini-still[hidden]{display:block!important}.rosmini-moving{display:none!important}}"
 
 # `find` takes the first picture with this mark that has no script yet, so that two equal ones on a page both work.
 _FROM_BOOK = """

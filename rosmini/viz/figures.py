@@ -134,9 +134,7 @@ def legend_width(handles: Sequence[Any]) -> float:
 
 def ticks(low: float, high: float, step: float) -> list[float]:
     """Return the multiples of `step` from `low` to `high`."""
-    return [
-        round(i * step, 9) for i in range(math.ceil(low / step - 1e-6), math.floor(high / step + 1e-6) + 1)
-    ]
+    return [round(i * step, 9) for i in range(math.ceil(low / step - 1e-6), math.floor(high / step + 1e-6) + 1)]
 
 
 def set_ticks(axis: Axis, low: float, high: float, step: float) -> None:

@@ -33,15 +33,11 @@ def grid(*views: View, columns: int = 2, title: str | None = None) -> View:
 
     """
     if not views or columns < 1:
-        raise ViewError(
-            f"a grid needs at least one view and one column, not {len(views)} views in {columns} columns"
-        )
+        raise ViewError(f"a grid needs at least one view and one column, not {len(views)} views in {columns} columns")
     for view in views:
         if view.html is None or _svg_of(view) is None:
             first = view.text.partition("\n")[0]
-            raise ViewError(
-                f"{first!r} has no vector form (SVG), so it cannot be part of a grid; show it by itself"
-            )
+            raise ViewError(f"{first!r} has no vector form (SVG), so it cannot be part of a grid; show it by itself")
     return _Grid(views, min(columns, len(views)), title)
 
 
@@ -82,14 +78,7 @@ class _Grid(View):
         css = f".{KIND} .under{{font-size:{LABEL_SIZE}px;fill:var(--rosmini-muted, {LIGHT['muted']})}}"
         title = self.text.partition("\n")[0]
         return document(
-            body,
-            width=WIDTH,
-            height=top - GAP,
-            title=title,
-            alt=self.alt,
-            css=css,
-            colours=["muted"],
-            kind=KIND,
+            body, width=WIDTH, height=top - GAP, title=title, alt=self.alt, css=css, colours=["muted"], kind=KIND
         )
 
     @property
@@ -100,9 +89,7 @@ class _Grid(View):
         columns = f"grid-template-columns:repeat(auto-fit,minmax(min(100%,{each}),1fr))"
         inner = f'<div style="display:grid;align-items:end;gap:0 {GAP:g}px;{columns}">{cells}</div>'
         caption = element("figcaption", escape(self._title)) if self._title else ""
-        return element(
-            "figure", inner + caption, class_=f"rosmini-figure {KIND}", role="group", style="margin:0.5em 0"
-        )
+        return element("figure", inner + caption, class_=f"rosmini-figure {KIND}", role="group", style="margin:0.5em 0")
 
 
 def _svg_of(view: View) -> str | None:

@@ -72,9 +72,7 @@ def gazebo_picture(
 def _first(driven: list[Robot], pose: Pose | None, name: str) -> Robot | None:
     """Return the robot that is drawn first: the one with this name, the one at this pose, or the first in the list."""
     if pose is not None:
-        return next(
-            (each for each in driven if each.name == name or math.dist(each.pose[:2], pose[:2]) < 1e-3), None
-        )
+        return next((each for each in driven if each.name == name or math.dist(each.pose[:2], pose[:2]) < 1e-3), None)
     named = (each for each in driven if each.name == name)
     return next(named, driven[0] if driven else None)
 

@@ -25,13 +25,7 @@ def ellipse(rect: Rect, kind: str) -> str:
 def box(rect: Rect, kind: str, radius: float, shift: float = 0.0) -> str:
     """Return a rectangle with round corners in the colours `kind`-fill and `kind`-line, `shift` to the right and up."""
     return element(
-        "rect",
-        x=rect.x + shift,
-        y=rect.y - shift,
-        width=rect.width,
-        height=rect.height,
-        rx=radius,
-        **_paint(kind),
+        "rect", x=rect.x + shift, y=rect.y - shift, width=rect.width, height=rect.height, rx=radius, **_paint(kind)
     )
 
 
@@ -51,14 +45,7 @@ def text(
 ) -> str:
     """Return a line of text on a baseline; `kind` is its class."""
     return element(
-        "text",
-        escape(words),
-        x=x,
-        y=y,
-        class_=kind,
-        font_size=size,
-        text_anchor=anchor,
-        fill=style.LIGHT[colour],
+        "text", escape(words), x=x, y=y, class_=kind, font_size=size, text_anchor=anchor, fill=style.LIGHT[colour]
     )
 
 
@@ -78,14 +65,7 @@ def facts(lines: Iterable[str], room: Rect | None) -> str:
     if room is None:
         return ""
     return "".join(
-        text(
-            line,
-            room.x + 6,
-            room.y + LINE_HEIGHT * (row + 1) - 2,
-            size=style.LABEL_SIZE,
-            colour="label",
-            anchor=None,
-        )
+        text(line, room.x + 6, room.y + LINE_HEIGHT * (row + 1) - 2, size=style.LABEL_SIZE, colour="label", anchor=None)
         for row, line in enumerate(lines)
     )
 
@@ -121,9 +101,7 @@ def rule(selector: str, **properties: str) -> str:
     return f".rosmini-svg {selector}{{{body}}}"
 
 
-def drawing(
-    parts: Iterable[str], layout: Layout, *, title: str, alt: str, css: str, colours: list[str]
-) -> str:
+def drawing(parts: Iterable[str], layout: Layout, *, title: str, alt: str, css: str, colours: list[str]) -> str:
     """Return the document of a drawing, with a margin around it."""
     moved = element("g", "".join(parts), transform=f"translate({number(MARGIN)},{number(MARGIN)})")
     width, height = layout.width + 2 * MARGIN, layout.height + 2 * MARGIN

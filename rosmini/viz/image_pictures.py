@@ -49,9 +49,7 @@ ENCODINGS = {
 """Encodings of `sensor_msgs/image_encodings.h` that cameras write (depths: REP 118); Bayer images are shown in grey."""
 
 
-def image_picture(
-    image: Any, *, title: str | None = None, width: float = WIDTH, far: float | None = None
-) -> Picture:
+def image_picture(image: Any, *, title: str | None = None, width: float = WIDTH, far: float | None = None) -> Picture:
     """Show an image; depths go from yellow (near) to blue (far), with a scale, and are grey where nothing was measured.
 
     Args:
@@ -72,9 +70,7 @@ def image_picture(
     if pixels.ndim == 3 and pixels.shape[2] == 3 and pixels.dtype == np.uint8 and pixels.size:
         return _coloured(pixels, _name(title, "image", pixels, encoding, frame), title, width)
     if pixels.ndim == 2 and pixels.dtype.kind == "f" and pixels.size:
-        return _deep(
-            pixels.astype(float), _name(title, "depth image", pixels, encoding, frame), title, width, far
-        )
+        return _deep(pixels.astype(float), _name(title, "depth image", pixels, encoding, frame), title, width, far)
     raise ViewError(
         "an image is a sensor_msgs/Image, or an array of bytes (h, w, 3), or of depths in metres (h, w), "
         f"not {type(image).__name__} {pixels.shape} of {pixels.dtype}"
@@ -135,9 +131,7 @@ def _coloured(pixels: Pixels, name: str, title: str | None, width: float) -> Pic
 
     drawn = Image.fromarray(np.ascontiguousarray(pixels))
     if drawn.width > width:
-        drawn = drawn.resize(
-            (round(width), max(1, round(drawn.height * width / drawn.width))), Image.Resampling.BOX
-        )
+        drawn = drawn.resize((round(width), max(1, round(drawn.height * width / drawn.width))), Image.Resampling.BOX)
     file = io.BytesIO()
     drawn.save(file, format="PNG", optimize=True)
     half = len(pixels) // 2

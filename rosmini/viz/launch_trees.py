@@ -33,9 +33,7 @@ def launch_tree(plan: Plan, *, parameters: bool = True, title: str | None = None
     return Picture(outline(rows, title or "Launch", alt), text=plan.text(), alt=alt, caption=title)
 
 
-def _file(
-    file: LaunchFile, plan: Plan, depth: int, parent: int, number: int, *, parameters: bool
-) -> Iterator[Row]:
+def _file(file: LaunchFile, plan: Plan, depth: int, parent: int, number: int, *, parameters: bool) -> Iterator[Row]:
     """Yield the row of a file, with index `number`, and the rows of its contents."""
     name = file.path.replace(os.sep, "/").rpartition("/")[2]
     space = ((KIND, f"in {file.namespace}"),) if file.namespace != "/" else ()
@@ -65,11 +63,7 @@ def _node(
     for source, target in node.remappings:
         yield Row(depth + 1, number, ((NAME, source), (VALUE, f"→ {target}")))
     for setting in _of(node, file) if parameters else ():
-        yield Row(
-            depth + 1,
-            number,
-            _setting(setting.name[len(node.full_name) :].replace("/", "~", 1), setting, plan),
-        )
+        yield Row(depth + 1, number, _setting(setting.name[len(node.full_name) :].replace("/", "~", 1), setting, plan))
 
 
 def _of(node: NodePlan, file: LaunchFile) -> list[Setting]:

@@ -79,9 +79,7 @@ def map_picture(
 
     """
     if not isinstance(grid, GridMap):
-        raise ViewError(
-            f"a map must be a GridMap, not a {type(grid).__name__}: use load_map or GridMap.from_message"
-        )
+        raise ViewError(f"a map must be a GridMap, not a {type(grid).__name__}: use load_map or GridMap.from_message")
     pose = None if robot is None else pose_of(robot, "the robot's pose")
     dots = None if points is None else line_of(points, "points")
     line = None if path is None else line_of(path, "the path")
@@ -127,9 +125,7 @@ def cells_image(figure: Figure, axes: Axes, cells: Cells, scheme: str) -> str:
 
 def cells_element(address: str, **where: str | float) -> str:
     """Return a GIF of cells as an SVG element, where cells stay rectangles, with a position and other attributes."""
-    return element(
-        "image", href=address, **where, preserveAspectRatio="none", style="image-rendering:pixelated"
-    )
+    return element("image", href=address, **where, preserveAspectRatio="none", style="image-rendering:pixelated")
 
 
 def draw_frame(axes: Axes, cells: Cells, scale: float) -> None:

@@ -69,10 +69,7 @@ def _ends(name: str, part: Part, state: GraphState) -> Iterator[Arrow]:
     if heard and not any(heard.values()):
         yield from ((topic, part.name, "") for topic in heard)
     for topic in part.publishes:
-        yield from (
-            (part.name, node + COMMANDED, topic)
-            for node in state.subscribers.get(topic, frozenset()) - {name}
-        )
+        yield from ((part.name, node + COMMANDED, topic) for node in state.subscribers.get(topic, frozenset()) - {name})
 
 
 def _draw(name: str, found: Structure, arrows: list[Arrow], state: GraphState, title: str, alt: str) -> str:
@@ -117,14 +114,7 @@ def _part(part: Part, rect: Rect) -> str:
     x, _ = rect.centre
     rows = text(first, x, rect.y + 18)
     rows += "".join(
-        text(
-            line,
-            x,
-            rect.y + 18 + LINE_HEIGHT * row,
-            size=style.LABEL_SIZE,
-            colour="muted",
-            kind="rm-what",
-        )
+        text(line, x, rect.y + 18 + LINE_HEIGHT * row, size=style.LABEL_SIZE, colour="muted", kind="rm-what")
         for row, line in enumerate(rest, 1)
     )
     return element("g", box(rect, "topic", 5.0) + rows, class_="rm-part")
@@ -146,9 +136,7 @@ def _arrow(layout: Layout, edge: Edge, what: str) -> str:
 
 
 def _group_name(name: str, rect: Rect) -> str:
-    return text(
-        name, rect.x + 9, rect.y + 14.5, size=style.LABEL_SIZE, colour="muted", anchor=None, kind="rm-what"
-    )
+    return text(name, rect.x + 9, rect.y + 14.5, size=style.LABEL_SIZE, colour="muted", anchor=None, kind="rm-what")
 
 
 def _css() -> str:

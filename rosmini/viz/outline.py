@@ -47,6 +47,4 @@ def outline(rows: Sequence[Row], title: str, alt: str) -> str:
         f".rosmini-svg .pt-kind{{fill:{style.variable('muted')};font-style:italic}}"
     )
     height = ROW * len(rows) + 2 * MARGIN
-    return document(
-        "".join(parts), width=width, height=height, title=title, alt=alt, css=css, colours=COLOURS
-    )
+    return document("".join(parts), width=width, height=height, title=title, alt=alt, css=css, colours=COLOURS)

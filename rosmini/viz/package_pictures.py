@@ -105,9 +105,7 @@ def workspace_tree(space: str = "", *, devel: Path | None = None, title: str | N
     paths = os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep) if devel is None else [str(devel)]
     found = [Path(each) for each in paths if each and (Path(each) / DEVEL_MARKER).is_file()]
     if not found:
-        raise ViewError(
-            "no workspace is in use; catkin_make builds one, and `source devel/setup.bash` uses it"
-        )
+        raise ViewError("no workspace is in use; catkin_make builds one, and `source devel/setup.bash` uses it")
     base = found[0].parent
     folder = base / space
     if not folder.is_dir():
@@ -127,9 +125,7 @@ def _tree(entries: list[Entry], what: str, title: str | None) -> Picture:
         said = ((KIND, entry.meaning),) if entry.meaning else ()
         rows.append(Row(entry.depth, last.get(entry.depth - 1, -1), ((kind, entry.name), *said)))
         last[entry.depth] = number
-    lines = [
-        f"{'  ' * each.depth}{each.name}{f'  ({each.meaning})' if each.meaning else ''}" for each in entries
-    ]
+    lines = [f"{'  ' * each.depth}{each.name}{f'  ({each.meaning})' if each.meaning else ''}" for each in entries]
     alt = f"{what}: " + ", ".join(each.name for each in entries[1:])
     text = "\n".join(([f"{title}:"] if title else []) + lines)
     return Picture(outline(rows, title or entries[0].name, alt), text=text, alt=alt, caption=title)

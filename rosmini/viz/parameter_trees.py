@@ -68,9 +68,7 @@ def _tree(source: object, namespace: str) -> dict[str, Any]:
     if isinstance(source, Mapping):
         return dict(source)
     if not hasattr(master, "getParam"):
-        raise ViewError(
-            f"{type(source).__name__} has no parameters: give a graph, its Master, or a dictionary"
-        )
+        raise ViewError(f"{type(source).__name__} has no parameters: give a graph, its Master, or a dictionary")
     code, status, found = master.getParam("/parameter_tree", namespace)
     if code != 1:
         raise ViewError(status)

@@ -79,9 +79,7 @@ def _points(name: str, values: tuple[ArrayLike, ArrayLike]) -> Floats:
         along_x, along_y = (np.asarray(part, dtype=float) for part in values)
         points: Floats = np.column_stack([along_x, along_y])
     except (TypeError, ValueError) as error:
-        raise ViewError(
-            f"series {name!r} must be two lists of numbers of the same length: {error}"
-        ) from error
+        raise ViewError(f"series {name!r} must be two lists of numbers of the same length: {error}") from error
     if not len(points) or points.shape[1] != 2 or not np.isfinite(points).all():
         raise ViewError(f"series {name!r} must be two lists of finite numbers, with at least one in each")
     return points
@@ -96,9 +94,7 @@ def _frame(axes: Axes, points: Floats, x: str, y: str) -> None:
     ):
         extent = high - low or 1.0
         step = step_of(extent, most)
-        edges.append(
-            (math.floor(low / step + 1e-6) * step, math.ceil((low + extent) / step - 1e-6) * step, step)
-        )
+        edges.append((math.floor(low / step + 1e-6) * step, math.ceil((low + extent) / step - 1e-6) * step, step))
     (left, right, across), (bottom, top, up) = edges
     axes.set(xlim=(left, right), ylim=(bottom, top), xlabel=x)
     set_ticks(axes.xaxis, left, right, across)

@@ -100,11 +100,7 @@ class RunScene(Scene):
 
 
 def recording_picture(
-    recording: Recording,
-    *,
-    scan: bool = False,
-    title: str | None = None,
-    size: tuple[float, float] = (WIDTH, HEIGHT),
+    recording: Recording, *, scan: bool = False, title: str | None = None, size: tuple[float, float] = (WIDTH, HEIGHT)
 ) -> Picture:
     """Draw a run from above: the true path of the robot, and its path by odometry, both with the same start.
 
@@ -175,9 +171,7 @@ def _plots(run: Recording, width: float, *, odometry: bool) -> Figure:
     return figure
 
 
-def _frame(
-    axes: Axes, label: str, span: tuple[float, float], values: Floats, least: float, *, last: bool
-) -> None:
+def _frame(axes: Axes, label: str, span: tuple[float, float], values: Floats, least: float, *, last: bool) -> None:
     """Set limits and ticks around `values` and zero, at least `least` high, and a title."""
     low, high = min(0.0, float(values.min())), max(0.0, float(values.max()))
     if high - low < least:
@@ -194,9 +188,7 @@ def _frame(
         axes.set_xlabel("time [s]")
 
 
-def _curve(
-    axes: Axes, times: Floats, values: Floats, colour: str, *, dashed: bool = False, label: str = ""
-) -> None:
+def _curve(axes: Axes, times: Floats, values: Floats, colour: str, *, dashed: bool = False, label: str = "") -> None:
     """Draw a line over time, with only the points that matter, rounded to a twentieth of a pixel."""
     box = axes.get_window_extent()
     size = np.array([box.width, box.height])
@@ -205,9 +197,7 @@ def _curve(
     pixels = snap((np.column_stack([times, values]) - limits[:, 0]) / extent * size, 0.05)
     points = pixels[points_to_keep(pixels, 0.137)] / size * extent + limits[:, 0]
     dashes: dict[str, Any] = {"dashes": DASHES} if dashed else {}
-    axes.plot(
-        *points.T, color=LIGHT[colour], linewidth=STROKE, label=label, zorder=4.0, clip_on=False, **dashes
-    )
+    axes.plot(*points.T, color=LIGHT[colour], linewidth=STROKE, label=label, zorder=4.0, clip_on=False, **dashes)
 
 
 def _plots_text(run: Recording, title: str | None, *, odometry: bool) -> str:

@@ -164,9 +164,7 @@ def _over_angles(figure: Figure, beams: Beams, width: float) -> None:
         )
 
 
-def _say_at(
-    axes: Axes, words: str, spot: tuple[float, float], above: float, along: Literal["top", "bottom"]
-) -> None:
+def _say_at(axes: Axes, words: str, spot: tuple[float, float], above: float, along: Literal["top", "bottom"]) -> None:
     axes.annotate(
         words,
         spot,

@@ -28,9 +28,7 @@ MAX_CELLS = 2_500
 HEIGHT = 460.0
 
 
-def search_picture(
-    search: Search, *, parents: bool = False, title: str | None = None, width: float = WIDTH
-) -> Picture:
+def search_picture(search: Search, *, parents: bool = False, title: str | None = None, width: float = WIDTH) -> Picture:
     """Draw a search in its current state, to scale, row 0 at the bottom.
 
     Args:
@@ -68,10 +66,7 @@ def search_picture(
         css=STYLE, colours=["page", "vermilion", "green", "ink"],
     )  # fmt: skip
     return Picture(
-        svg,
-        text=f"{title or 'search'}: {said}",
-        alt=f"A search on a grid, from above. {said}.",
-        caption=title,
+        svg, text=f"{title or 'search'}: {said}", alt=f"A search on a grid, from above. {said}.", caption=title
     )
 
 

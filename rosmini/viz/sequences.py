@@ -74,9 +74,7 @@ def recorded_calls(
         raise ViewError(f"nothing was recorded{about}: {hint}")
     rest = len(calls) - limit
     more = f" (and {plural(rest, 'more call')} after these)" if rest > 0 else ""
-    return sequence_diagram(
-        calls[:limit], title=title and f"{title}{more}", name=f"What happened{about}{more}"
-    )
+    return sequence_diagram(calls[:limit], title=title and f"{title}{more}", name=f"What happened{about}{more}")
 
 
 Arrow = tuple[str, str, str, bool]
@@ -116,22 +114,14 @@ def _draw(actors: Sequence[str], arrows: Sequence[Arrow], title: str, alt: str) 
     moved = element("g", "".join(parts), transform=f"translate({MARGIN:g},{MARGIN:g})")
     width = columns[-1] + text_width(actors[-1], style.TEXT_SIZE) / 2 + 12
     return document(
-        moved,
-        width=width + 2 * MARGIN,
-        height=bottom + 2 * MARGIN,
-        title=title,
-        alt=alt,
-        css=_css(),
-        colours=COLOURS,
+        moved, width=width + 2 * MARGIN, height=bottom + 2 * MARGIN, title=title, alt=alt, css=_css(), colours=COLOURS
     )
 
 
 def _actor(actor: str, x: float, bottom: float) -> str:
     width = text_width(actor, style.TEXT_SIZE) + 24
     head = Rect(x - width / 2, 0, width, HEAD)
-    line = element(
-        "path", d=f"M{x:.1f},{HEAD:g}V{bottom:.1f}", stroke=style.LIGHT["group-line"], class_="rm-life"
-    )
+    line = element("path", d=f"M{x:.1f},{HEAD:g}V{bottom:.1f}", stroke=style.LIGHT["group-line"], class_="rm-life")
     return line + element("g", box(head, "node", 5) + name(actor, head), class_="rm-actor")
 
 

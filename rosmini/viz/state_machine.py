@@ -49,11 +49,7 @@ def action_states(
     names = [one if isinstance(one, str) else one.name for one in visited]
     transitions = server_transitions() if side == "server" else client_transitions()
     return state_machine(
-        transitions,
-        visited=names,
-        title=title,
-        name=f"The states of a goal at the {side}",
-        direction=direction,
+        transitions, visited=names, title=title, name=f"The states of a goal at the {side}", direction=direction
     )
 
 
@@ -74,9 +70,7 @@ def client_transitions() -> list[Transition]:
         for status, way in row.items()
         if way is not None and len(way) == 1
     ]
-    steps += [
-        (state.name, "cancel()", "WAITING_FOR_CANCEL_ACK") for state in CommState if state in CANCELLABLE
-    ]
+    steps += [(state.name, "cancel()", "WAITING_FOR_CANCEL_ACK") for state in CommState if state in CANCELLABLE]
     return [*steps, ("WAITING_FOR_RESULT", "result", "DONE")]
 
 
@@ -119,9 +113,7 @@ def _edge_of(pair: tuple[str, str], names: list[str]) -> Edge:
     return Edge(f"{pair[0]} {pair[1]}", *pair, width, LINE_HEIGHT * len(names))
 
 
-def _text(
-    title: str, labels: dict[tuple[str, str], list[str]], ends: set[str], visited: Sequence[str]
-) -> str:
+def _text(title: str, labels: dict[tuple[str, str], list[str]], ends: set[str], visited: Sequence[str]) -> str:
     lines = [f"{title}: {len({state for pair in labels for state in pair})} states"]
     for (source, target), names in sorted(labels.items()):
         lines.append(f"  {source} -> {target}: {', '.join(names)}")
@@ -151,9 +143,7 @@ def _draw(
     quiet = sorted(edges, key=lambda edge: ((edge.source, edge.target) in taken, edge.name))
     parts = [_arrow(layout, edge, (edge.source, edge.target) in taken) for edge in quiet]
     parts += [_label(layout, edge, labels[edge.source, edge.target]) for edge in quiet]
-    parts += [
-        _state(name, rect, name in ends, name in visited) for name, rect in sorted(layout.vertices.items())
-    ]
+    parts += [_state(name, rect, name in ends, name in visited) for name, rect in sorted(layout.vertices.items())]
     return drawing(parts, layout, title=title, alt=alt, css=_css(), colours=COLOURS)
 
 
@@ -161,9 +151,7 @@ def _state(name: str, rect: Rect, ends: bool, visited: bool) -> str:
     kind = "topic" if visited else "node"
     paint = {"fill": style.LIGHT[f"{kind}-fill"], "stroke": style.LIGHT[f"{kind}-line"]}
     frames = [_frame(rect, 0.0, paint)] + ([_frame(rect, 3.0, {**paint, "fill": "none"})] if ends else [])
-    return element(
-        "g", "".join(frames) + label_of(name, rect), class_="rm-visited" if visited else "rm-state"
-    )
+    return element("g", "".join(frames) + label_of(name, rect), class_="rm-visited" if visited else "rm-state")
 
 
 def _frame(rect: Rect, inset: float, paint: dict[str, str]) -> str:

@@ -76,15 +76,11 @@ def map_steps(file: MapFile, *, title: str | None = None) -> SteppedPlayer:
 
     """
     if not isinstance(file, MapFile):
-        raise ViewError(
-            f"map_steps needs the description of a map, map_file(...), not a {type(file).__name__}"
-        )
+        raise ViewError(f"map_steps needs the description of a map, map_file(...), not a {type(file).__name__}")
     fields, pixels, image = file.fields, file.pixels(), file.image.name
     height, width, channels = pixels.shape
     if channels != 1:
-        raise ViewError(
-            f"{image} has {channels} channels, but only grey images can be shown for several thresholds"
-        )
+        raise ViewError(f"{image} has {channels} channels, but only grey images can be shown for several thresholds")
     if max(height, width) > MAX_IMAGE:
         raise ViewError(f"{image} has {width} x {height} pixels; at most {MAX_IMAGE} a side can be shown")
     wide = (WIDTH - GAP) / 2
@@ -119,9 +115,7 @@ def map_steps(file: MapFile, *, title: str | None = None) -> SteppedPlayer:
         f"mode {fields.mode}, negate {int(fields.negate)}, free_thresh {fields.free_thresh:g}, "
         f"occupied_thresh {fields.occupied_thresh:g}"
     )
-    parts = frame(fields.free_thresh, fields.occupied_thresh, fields.mode, fields.negate).text.partition(
-        "\n"
-    )[0]
+    parts = frame(fields.free_thresh, fields.occupied_thresh, fields.mode, fields.negate).text.partition("\n")[0]
     ground = _image(painted(pixels[::-1, :, 0], "raw"), wide, high)
     return SteppedPlayer(
         name, [Panel("image", wide, high, ground), Panel("map", wide, high)], axes, frames,
@@ -180,9 +174,7 @@ def inflation_steps(
 
     def frame(radius: float, factor: float, inner: float) -> Frame:
         reach = cell_distance(radius, cells.resolution)
-        costs = inflated(
-            base, inscribed_radius=inner, inflation_radius=radius, cost_scaling_factor=factor
-        ).costs
+        costs = inflated(base, inscribed_radius=inner, inflation_radius=radius, cost_scaling_factor=factor).costs
         text = ", ".join(shares(costs))
         if radius < inner:
             text += "\nThe inflation radius is below the inscribed radius: plans lead where the robot does not fit."
@@ -195,11 +187,7 @@ def inflation_steps(
         Axis("cost_scaling_factor", [f"{value:g}" for value in factors]),
         Axis("inscribed radius", [f"{value:g} m" for value in inscribed]),
     ]
-    first = (
-        radii.index(inflation_radius),
-        factors.index(cost_scaling_factor),
-        inscribed.index(inscribed_radius),
-    )
+    first = (radii.index(inflation_radius), factors.index(cost_scaling_factor), inscribed.index(inscribed_radius))
     name = title or "inflation"
     numbers = (
         f"inflation_radius {inflation_radius:g} m, cost_scaling_factor {cost_scaling_factor:g}, "
@@ -232,9 +220,7 @@ def _curve_axes() -> str:
     (left, low), (right, high) = _on_curve(0, 0), _on_curve(1.5, 254)
     ticks = [(f"{d:g}", _on_curve(d, 0)[0], low + 16, "middle") for d in (0.0, 0.5, 1.0, 1.5)]
     ticks += [("0", left - 6, low + 4, "end"), ("254", left - 6, high + 4, "end")]
-    return element(
-        "path", d=f"M{left:g} {high:g}V{low:g}H{right:g}", fill="none", class_="rm-axis"
-    ) + "".join(
+    return element("path", d=f"M{left:g} {high:g}V{low:g}H{right:g}", fill="none", class_="rm-axis") + "".join(
         element("text", word, x=x, y=y, text_anchor=anchor, font_size=LABEL_SIZE, class_="rm-tick")
         for word, x, y, anchor in ticks
     )
@@ -272,14 +258,10 @@ def search_steps(searches: Mapping[str, Search], *, title: str | None = None) ->
         raise ViewError("searches are given by name: {'Dijkstra': NavfnSearch(...), 'A*': ...}")
     sizes = {(each.width, each.height) for each in searches.values()}
     if len(sizes) > 1:
-        raise ViewError(
-            f"searches that are shown side by side need grids of one size, not of {sorted(sizes)}"
-        )
+        raise ViewError(f"searches that are shown side by side need grids of one size, not of {sorted(sizes)}")
     ((width, height),) = sizes
     if width * height > MAX_GRID:
-        raise ViewError(
-            f"a grid of {width} x {height} cells is too large: at most {MAX_GRID} cells can be shown"
-        )
+        raise ViewError(f"a grid of {width} x {height} cells is too large: at most {MAX_GRID} cells can be shown")
     for name, each in searches.items():
         if each.expanded:
             raise ViewError(f"the search {name!r} has started: give one that has not been expanded")
@@ -326,9 +308,7 @@ def _recorded(search: Search) -> NDArray[np.int64]:
     return after
 
 
-def _search_frame(
-    search: Search, after: NDArray[np.int64], count: int, longest: int, scale: float
-) -> tuple[str, str]:
+def _search_frame(search: Search, after: NDArray[np.int64], count: int, longest: int, scale: float) -> tuple[str, str]:
     """Return the picture and the text of a search after `count` expanded cells."""
     reached = (after >= 0) & (after <= count)
     pixels = np.full((search.height, search.width, 4), 255, dtype=np.uint8)
@@ -494,18 +474,14 @@ class _Fan:
             x += 26 + 8.0 * len(text) + 12
         if self._costs is not None:
             address = gif_url(gif(painted(self._costs, "costmap"))[0])
-            parts.append(
-                cells_element(address, y=LEGEND, width=self.width, height=self.height - LEGEND, opacity="0.6")
-            )
+            parts.append(cells_element(address, y=LEGEND, width=self.width, height=self.height - LEGEND, opacity="0.6"))
         accepted = int(self._samples.accepted.sum())
         for place, number in reversed(list(enumerate(order.tolist()))):
             kind = f"t{place * SHADES // accepted}" if place < accepted else "tx"
             parts.append(self._line(self._samples.trajectory(number)[:, :2], kind))
         if plan is not None:
             points = np.asarray(plan, dtype=float)[:, :2]
-            parts.append(
-                self._line(points[np.all((points >= self._low) & (points <= self._high), axis=1)], "tp")
-            )
+            parts.append(self._line(points[np.all((points >= self._low) & (points <= self._high), axis=1)], "tp"))
         return "".join(parts)
 
     def drawn(self, number: int) -> str:
@@ -596,9 +572,7 @@ def _filter_frame(
 ) -> Frame:
     poses = np.asarray(particles, dtype=float)
     if poses.ndim != 2 or poses.shape[1] != 3 or not len(poses) or not np.isfinite(poses).all():
-        raise ViewError(
-            f"particles of the step {name!r} must be rows of finite x, y and heading, not {poses.shape}"
-        )
+        raise ViewError(f"particles of the step {name!r} must be rows of finite x, y and heading, not {poses.shape}")
     given = np.ones(len(poses)) if weights is None else np.asarray(weights, dtype=float)
     if given.shape != (len(poses),) or not np.isfinite(given).all() or (given < 0).any() or given.sum() <= 0:
         raise ViewError(
@@ -624,9 +598,7 @@ def _filter_frame(
     for number, kind in enumerate(WEIGHTS):
         chosen = np.hstack([starts, strokes])[level == number].astype(int).tolist()
         if chosen:
-            parts.append(
-                element("path", d="".join(f"M{x} {y}l{dx} {dy}" for x, y, dx, dy in chosen), class_=kind)
-            )
+            parts.append(element("path", d="".join(f"M{x} {y}l{dx} {dy}" for x, y, dx, dy in chosen), class_=kind))
     if pose is not None:
         x, y = at(np.array(pose[:2])).tolist()
         parts.append(element("circle", cx=x, cy=y, r=7, class_="rm-truth"))
@@ -671,9 +643,7 @@ def match_steps(
     """
     if not len(points):
         raise ViewError("a scan without points cannot be matched to a map")
-    poses = list(
-        itertools.accumulate(range(steps), lambda here, _: match(grid, points, here, 0).pose, initial=pose)
-    )
+    poses = list(itertools.accumulate(range(steps), lambda here, _: match(grid, points, here, 0).pose, initial=pose))
     ends = [transform_points(here, points) for here in poses]
     every = np.concatenate(ends)
     low, high = snap(every.min(axis=0) - AROUND, 0.1), snap(every.max(axis=0) + AROUND, 0.1)
@@ -686,16 +656,10 @@ def match_steps(
 
     likely = np.where(grid.odds == 0, UNKNOWN, np.rint(100 * grid.probabilities)).astype(np.uint8)
     rows, columns = likely.shape
-    left, top = at(
-        (grid.origin[0] - grid.resolution / 2, grid.origin[1] + (rows - 0.5) * grid.resolution)
-    ).tolist()
+    left, top = at((grid.origin[0] - grid.resolution / 2, grid.origin[1] + (rows - 0.5) * grid.resolution)).tolist()
     size = grid.resolution * scale
     image = cells_element(
-        gif_url(gif(painted(likely[::-1], "map"))[0]),
-        x=left,
-        y=top,
-        width=columns * size,
-        height=rows * size,
+        gif_url(gif(painted(likely[::-1], "map"))[0]), x=left, y=top, width=columns * size, height=rows * size
     )
 
     def frame(here: Pose, beams: Floats, number: int) -> Frame:
@@ -704,9 +668,7 @@ def match_steps(
         robot = element("circle", cx=x, cy=y, r=0.1 * scale, class_="rm-robot") + _path(
             [(x, y), (nose_x, nose_y)], "rm-robot"
         )
-        return Frame(
-            [element("path", d=dots, class_="rm-ends") + robot], f"step {number}: robot at {pose_text(here)}"
-        )
+        return Frame([element("path", d=dots, class_="rm-ends") + robot], f"step {number}: robot at {pose_text(here)}")
 
     name = title or "match"
     said = (

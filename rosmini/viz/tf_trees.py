@@ -35,17 +35,11 @@ def tf_tree(source: Any, *, title: str | None = None) -> Picture:
         for frame, edge in sorted(tree.edges.items(), key=lambda item: (item[1].newest.parent, item[0]))
     ]
     alt = _alt(tree)
-    return Picture(
-        _draw(tree, title or "tf tree", alt), text="\n".join([head, *lines]), alt=alt, caption=title
-    )
+    return Picture(_draw(tree, title or "tf tree", alt), text="\n".join([head, *lines]), alt=alt, caption=title)
 
 
 def _tree(source: Any) -> FrameTree:
-    for found in (
-        source,
-        getattr(source, "tree", None),
-        getattr(getattr(source, "buffer", None), "tree", None),
-    ):
+    for found in (source, getattr(source, "tree", None), getattr(getattr(source, "buffer", None), "tree", None)):
         if isinstance(found, FrameTree):
             return found
     raise ViewError(
@@ -76,8 +70,7 @@ def _alt(tree: FrameTree) -> str:
 
 def _draw(tree: FrameTree, title: str, alt: str) -> str:
     vertices = [
-        Vertex(frame, max(64.0, text_width(frame, style.TEXT_SIZE) + 34), 36.0, "ellipse")
-        for frame in sorted(tree)
+        Vertex(frame, max(64.0, text_width(frame, style.TEXT_SIZE) + 34), 36.0, "ellipse") for frame in sorted(tree)
     ]
     edges = []
     for frame, edge in sorted(tree.edges.items()):

@@ -96,15 +96,7 @@ def themed_svg(
     light = style.declarations(style.LIGHT, list(steady)) if steady else None
     drawn = element("g", under + body, stroke_linejoin="round", style=light)
     return document(
-        drawn,
-        width=width,
-        height=height,
-        title=title,
-        alt=alt,
-        css=css,
-        colours=colours,
-        kind=KIND,
-        others=others,
+        drawn, width=width, height=height, title=title, alt=alt, css=css, colours=colours, kind=KIND, others=others
     )
 
 
@@ -132,9 +124,7 @@ def _written(node: Element, names: dict[str, str], parent: str = "") -> str:
 def _markers(node: Element, names: dict[str, str]) -> str:
     """Return a group of many equal markers with their style stated once; empty for other groups."""
     uses = [dict(_attributes(child, "use", names)) for child in node if child.tag.rpartition("}")[2] == "use"]
-    looks = {
-        tuple((name, value) for name, value in use.items() if name not in ("href", "x", "y")) for use in uses
-    }
+    looks = {tuple((name, value) for name, value in use.items() if name not in ("href", "x", "y")) for use in uses}
     if len(uses) < _MANY or len(uses) < len(node) or len(looks) > 1:
         return ""
     places = (element("use", href=use["href"], x=use.get("x", "0"), y=use.get("y", "0")) for use in uses)

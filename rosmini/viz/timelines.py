@@ -86,9 +86,7 @@ def timeline(
         return matplotlib_picture(figure, text=text, alt=f"{alt} {text}".strip(), form="svg", caption=title)
 
 
-def _lines(
-    title: str, spans: Sequence[Span], states: Sequence[str], events: Sequence[tuple[float, str]]
-) -> list[str]:
+def _lines(title: str, spans: Sequence[Span], states: Sequence[str], events: Sequence[tuple[float, str]]) -> list[str]:
     lines = [f"{title}: {fixed(spans[-1].end, 1)} s"]
     for state in states:
         own = [span for span in spans if span.state == state]
@@ -100,11 +98,7 @@ def _lines(
 def _draw(axes: Any, spans: Sequence[Span], states: Sequence[str]) -> None:
     whole = spans[-1].end or 1.0
     for row, (state, colour) in enumerate(zip(states, COLOURS, strict=False)):
-        own = [
-            (span.begin, max(span.end - span.begin, MIN_SPAN * whole))
-            for span in spans
-            if span.state == state
-        ]
+        own = [(span.begin, max(span.end - span.begin, MIN_SPAN * whole)) for span in spans if span.state == state]
         pieces = [tuple(part) for part in snap(own, whole / 4000).tolist()] if own else []
         axes.broken_barh(pieces, (row - 0.32, 0.64), facecolors=LIGHT[colour], zorder=3.0, clip_on=False)
     step = step_of(whole, 8)
@@ -120,9 +114,7 @@ def _event(axes: Any, time: float, name: str, above: float) -> None:
     (time,) = snap([time], (right - left) / 4000).tolist()
     ends = time > left + 0.75 * (right - left)
     bottom, top = axes.get_ylim()
-    axes.plot(
-        [time, time], [bottom, top - above], color=LIGHT["muted"], linewidth=1.0, clip_on=False, zorder=2.0
-    )
+    axes.plot([time, time], [bottom, top - above], color=LIGHT["muted"], linewidth=1.0, clip_on=False, zorder=2.0)
     axes.annotate(
         name, (time, top - above + 0.16), xytext=(-4 if ends else 4, 0), textcoords="offset points",
         ha="right" if ends else "left", va="center", fontsize=LABEL_SIZE, color=LIGHT["ink"], annotation_clip=False,

@@ -84,9 +84,7 @@ def _points(source: Any) -> Floats:
 def _frame(axes: Axes, low: Floats, high: Floats, size: tuple[float, float]) -> None:
     low, high = snap(low), snap(high)
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
-    step = max(
-        step_of(float(side), max(2, int(pixels / 60))) for side, pixels in zip(high - low, size, strict=True)
-    )
+    step = max(step_of(float(side), max(2, int(pixels / 60))) for side, pixels in zip(high - low, size, strict=True))
     for i, axis in enumerate((axes.xaxis, axes.yaxis)):
         set_ticks(axis, float(low[i]), float(high[i]), step)
     axes.set_xlabel("x [m]")

@@ -45,14 +45,7 @@ def turtle_picture(frame: Frame, *, title: str | None = None, size: float = 360.
     body += "".join(_turtle(each) for each in turtles)
     inner = element("svg", body, viewBox=f"0 0 {SIZE} {SIZE}", width=size, height=size)
     svg = document(
-        inner,
-        width=size,
-        height=size,
-        title=text.partition("\n")[0],
-        alt=alt.strip(),
-        css="",
-        colours=[],
-        kind=KIND,
+        inner, width=size, height=size, title=text.partition("\n")[0], alt=alt.strip(), css="", colours=[], kind=KIND
     )
     return Picture(svg, text=text, alt=alt.strip(), caption=title)
 

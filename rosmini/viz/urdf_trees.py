@@ -33,17 +33,13 @@ def urdf_tree(robot: Robot, *, title: str | None = None) -> Picture:
         f"{title or robot.name}: {plural(len(robot.links), 'link')}, {plural(len(robot.joints), 'joint')}, "
         f"{moving} of them move; {fixed(robot.mass, 3)} kg"
     )
-    lines = [
-        f"{joint.parent} -> {joint.child}: {', '.join(_facts(joint))}{_place(joint)}" for joint in robot.order
-    ]
+    lines = [f"{joint.parent} -> {joint.child}: {', '.join(_facts(joint))}{_place(joint)}" for joint in robot.order]
     said = [f"{', '.join(robot.children(link))} under {link}" for link in robot.links if robot.children(link)]
     alt = (
         f"Tree of the {plural(len(robot.links), 'link')} of {robot.name}, with {moving} moving joints: "
         f"{'; '.join(said) or robot.root}."
     )
-    return Picture(
-        _draw(robot, title or robot.name, alt), text="\n".join([head, *lines]), alt=alt, caption=title
-    )
+    return Picture(_draw(robot, title or robot.name, alt), text="\n".join([head, *lines]), alt=alt, caption=title)
 
 
 def _facts(joint: Joint) -> list[str]:
@@ -71,10 +67,7 @@ def _draw(robot: Robot, title: str, alt: str) -> str:
         )
         for name in robot.links
     ]  # fmt: skip
-    edges = [
-        Edge(joint.name, joint.parent, joint.child, *room_for(_facts(joint)))
-        for joint in robot.joints.values()
-    ]
+    edges = [Edge(joint.name, joint.parent, joint.child, *room_for(_facts(joint))) for joint in robot.joints.values()]
     layout = layered(vertices, edges, direction="down")
     parts = [_joint(layout, robot.joints[edge.name]) for edge in edges]
     parts += [_link(layout, robot, name) for name in robot.links]

@@ -77,9 +77,7 @@ class View(ABC):
             metadata[mime] = self._about_image()
         if self.html is not None:
             data["text/html"] = self.html
-        wanted = [
-            mime for mime in data if (not include or mime in include) and (not exclude or mime not in exclude)
-        ]
+        wanted = [mime for mime in data if (not include or mime in include) and (not exclude or mime not in exclude)]
         return {m: data[m] for m in wanted}, {m: metadata[m] for m in wanted if m in metadata}
 
     def _about_image(self) -> dict[str, str]:
@@ -131,13 +129,9 @@ class Picture(View):
 
     def __init__(self, image: str | bytes, *, text: str, alt: str, caption: str | None = None) -> None:
         if not text.strip():
-            raise ViewError(
-                "a picture needs a text form: it is what a notebook's test compares, so say what it shows"
-            )
+            raise ViewError("a picture needs a text form: it is what a notebook's test compares, so say what it shows")
         if not alt.strip():
-            raise ViewError(
-                "a picture needs alt text: one sentence that says what it shows to those who cannot see it"
-            )
+            raise ViewError("a picture needs alt text: one sentence that says what it shows to those who cannot see it")
         if isinstance(image, str) and not image.startswith("<svg"):
             raise ViewError("an SVG picture must begin with its <svg> element")
         if isinstance(image, bytes) and not image.startswith(b"\x89PNG\r\n\x1a\n"):
@@ -178,9 +172,7 @@ class Picture(View):
         if self.svg is None:
             return None
         caption = element("figcaption", escape(self.caption)) if self.caption else ""
-        return element(
-            "figure", self.svg + caption, class_="rosmini-figure", style="margin:0.5em 0;overflow-x:auto"
-        )
+        return element("figure", self.svg + caption, class_="rosmini-figure", style="margin:0.5em 0;overflow-x:auto")
 
 
 def matplotlib_picture(

@@ -76,9 +76,7 @@ def _obstacle(axes: Axes, obstacle: Obstacle) -> None:
     if isinstance(obstacle.motion, Walk):
         ways = obstacle.motion.waypoints
         line = snap(np.array([*ways, ways[0]] if obstacle.motion.loop else ways))
-        axes.plot(
-            *line.T, color=_paint(_edge(colour)), linewidth=1.2, zorder=2.5, clip_on=False, dashes=(2.0, 3.0)
-        )
+        axes.plot(*line.T, color=_paint(_edge(colour)), linewidth=1.2, zorder=2.5, clip_on=False, dashes=(2.0, 3.0))
 
 
 def _shape_path(shape: Simple, pose: Pose) -> Path:
@@ -107,19 +105,13 @@ def draw_scan(axes: Axes, beams: Beams, laser: Pose, scale: float) -> None:
     ends = snap(transform_points(laser, beams.points()))
     if len(ends) == 1:
         axes.plot(
-            *np.vstack([snap(laser[:2]), ends]).T,
-            color=_paint("vermilion"),
-            alpha=ONE_BEAM,
-            linewidth=1.2,
-            zorder=2.0,
+            *np.vstack([snap(laser[:2]), ends]).T, color=_paint("vermilion"), alpha=ONE_BEAM, linewidth=1.2, zorder=2.0
         )
         draw_dots(axes, ends[beams.hits], "vermilion", 3.2)
         return
     whole = len(ends) * float(np.diff(beams.angles[:2]).sum()) > 1.9 * math.pi
     outline = ends if whole else np.vstack([snap(laser[:2]), ends])
-    _patch(
-        axes, _path([_thinned(outline, scale)], closed=True), fill="vermilion", opacity=SEEN, z=2.0, clip=True
-    )
+    _patch(axes, _path([_thinned(outline, scale)], closed=True), fill="vermilion", opacity=SEEN, z=2.0, clip=True)
     draw_dots(axes, ends[beams.hits], "vermilion", 3.2)
 
 
@@ -134,9 +126,7 @@ def draw_strokes(axes: Axes, lines: Floats, colour: str, width: float, cap: Any 
     _patch(axes, _path(lines), edge=colour, width=width, cap=cap, z=5.0)
 
 
-def draw_trail(
-    axes: Axes, points: Floats, scale: float, *, colour: str = "blue", dashed: bool = False
-) -> None:
+def draw_trail(axes: Axes, points: Floats, scale: float, *, colour: str = "blue", dashed: bool = False) -> None:
     """Draw a line through points (n, 2)."""
     line = _thinned(snap(points), scale)
     dashes: dict[str, Any] = {"dashes": DASHES} if dashed else {}
@@ -173,9 +163,7 @@ def name_box(
     return (x - half, bottom, x + half, bottom + height)
 
 
-def draw_name(
-    axes: Axes, model: RobotModel, pose: Pose, name: str, colour: str, scale: float, *, above: bool
-) -> None:
+def draw_name(axes: Axes, model: RobotModel, pose: Pose, name: str, colour: str, scale: float, *, above: bool) -> None:
     """Draw a robot's name below or above it."""
     aside = _aside(model, scale)
     axes.annotate(
@@ -291,9 +279,7 @@ def _rounded(corners: Floats, radius: float) -> Path:
 
     vertices: list[Floats] = []
     codes: list[Any] = []
-    for before, corner, after in zip(
-        np.roll(corners, 1, axis=0), corners, np.roll(corners, -1, axis=0), strict=True
-    ):
+    for before, corner, after in zip(np.roll(corners, 1, axis=0), corners, np.roll(corners, -1, axis=0), strict=True):
         for end in (before, after):
             side = end - corner
             length = math.hypot(*side)

@@ -260,19 +260,12 @@ class Scene:
         if self.beams is not None and self.beams.hits.any():
             reach = self.beams.ranges[self.beams.hits]
             heading = self.beams.angles[self.beams.hits] + self.laser[2]
-            points.append(
-                self.laser[:2] + np.column_stack([reach * np.cos(heading), reach * np.sin(heading)])
-            )
+            points.append(self.laser[:2] + np.column_stack([reach * np.cos(heading), reach * np.sin(heading)]))
         every = np.vstack(points)
         # contents outside the world widen the view in steps of 10 cm, which rounding errors do not affect
         low = np.floor(every.min(axis=0) * 10 + 0.01237) / 10
         high = np.ceil(every.max(axis=0) * 10 - 0.01237) / 10
-        return (
-            float(min(low[0], x0)),
-            float(min(low[1], y0)),
-            float(max(high[0], x1)),
-            float(max(high[1], y1)),
-        )
+        return (float(min(low[0], x0)), float(min(low[1], y0)), float(max(high[0], x1)), float(max(high[1], y1)))
 
     def text(self, title: str | None) -> str:
         """Return a line for each thing that is drawn."""
@@ -300,9 +293,7 @@ class Scene:
         said = [f"The world {self.world.name} from above: {contents(self.world, ' by ')}."]
         if self.robot is not None:
             x, y, heading = self.robot
-            said.append(
-                f"The robot is at x {fixed(x, 2)} m, y {fixed(y, 2)} m, heading {degrees(heading, 0)} degrees."
-            )
+            said.append(f"The robot is at x {fixed(x, 2)} m, y {fixed(y, 2)} m, heading {degrees(heading, 0)} degrees.")
         if self.others:
             said.append(_others_sentence(self.others))
         if self.beams is not None:

@@ -71,18 +71,14 @@ def test_events_are_in_order_and_not_in_the_future():
     assert all(day <= facts.TODAY for day in when)
 
 
-@pytest.mark.parametrize(
-    ("boxes", "ways"), [(people.FIRMS, people.WAYS), (people.COMMUNITY, people.HANDED_ON)]
-)
+@pytest.mark.parametrize(("boxes", "ways"), [(people.FIRMS, people.WAYS), (people.COMMUNITY, people.HANDED_ON)])
 def test_every_box_of_a_flow_is_joined_to_another(boxes, ways):
     assert {name for way in ways for name in way} == {name for name, _ in boxes}
 
 
 def test_the_page_on_the_community_has_the_dates_of_the_drawing():
     page = (ROOT / "book" / "community.md").read_text(encoding="utf-8")
-    rows = [
-        [cell.strip() for cell in line.split("|")[1:-1]] for line in page.splitlines() if line.startswith("|")
-    ]
+    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in page.splitlines() if line.startswith("|")]
     told = {row[0]: (row[1], row[4]) for row in rows if row[0] not in {"distribution", "---"}}
     expected = {
         one.name: (f"{one.released.day} {one.released:%B %Y}", f"{one.end:%B %Y}" if one.end else "-")

@@ -21,9 +21,7 @@ def graph():
 def dynparam(graph, *words):
     """What it printed, and its exit status."""
     said = io.StringIO()
-    handle = rosrun(
-        "dynamic_reconfigure", "dynparam", *words, graph=graph, stdout=said, stderr=said, prefix=False
-    )
+    handle = rosrun("dynamic_reconfigure", "dynparam", *words, graph=graph, stdout=said, stderr=said, prefix=False)
     graph.run(2.0)
     return said.getvalue(), handle.poll()
 

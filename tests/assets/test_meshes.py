@@ -31,10 +31,7 @@ def bounds(name):
 @pytest.mark.parametrize(
     ("name", "size"),
     [
-        (
-            "wheels/tire.dae",
-            (0.066, 0.0185, 0.066),
-        ),  # description: radius 33 mm, width 18 mm; the hub stands out
+        ("wheels/tire.dae", (0.066, 0.0185, 0.066)),  # description: radius 33 mm, width 18 mm; the hub stands out
         ("sensors/lds.dae", (0.0955, 0.0695, 0.040)),  # LDS-01: 95.5 x 69.5 x 39.5 mm
         ("sensors/r200.dae", (0.0136, 0.130, 0.025)),  # R200: 130 x 20 x 7 mm, on a foot
         (

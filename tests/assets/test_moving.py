@@ -13,9 +13,7 @@ FILMS = sorted(moving.FILMS.glob("*.svg"))
 
 def test_a_committed_film_is_what_the_generator_makes():
     made = moving.ten_robots()
-    assert (moving.FILMS / "ten.svg").read_text(encoding="utf-8") == made, (
-        "run `python -m assets.generate.moving`"
-    )
+    assert (moving.FILMS / "ten.svg").read_text(encoding="utf-8") == made, "run `python -m assets.generate.moving`"
 
 
 @pytest.mark.parametrize("path", FILMS, ids=lambda path: path.stem)

@@ -56,9 +56,7 @@ def test_an_erratic_maps_the_floor_on_its_way_to_a_goal(graph, capsys):
     assert [name for name, code in launch.state().codes if code is None] == [
         "/move_base_node", "/stageros", "/slam_gmapping", "/rviz",
     ]  # fmt: skip
-    assert (
-        "To see RViz, run: %rviz -d package://navigation_stage/single_robot.rviz" in capsys.readouterr().out
-    )
+    assert "To see RViz, run: %rviz -d package://navigation_stage/single_robot.rviz" in capsys.readouterr().out
     results = send(graph, "", (0.7, 0.0, 0.0))
     graph.run(10.0)
     assert statuses(results) == REACHED
@@ -99,20 +97,13 @@ def test_each_of_two_erratics_goes_to_a_goal_of_its_own(graph):
 def test_of_two_robots_one_is_removed_on_its_way_and_one_loses_its_move_base(graph, monkeypatch):
     monkeypatch.setenv("TURTLEBOT3_MODEL", "burger")
     node = graph.node("setter")
-    for name, value in (
-        ("recovery_behavior_enabled", False),
-        ("controller_patience", 1.0),
-        ("planner_patience", 1.0),
-    ):
+    for name, value in (("recovery_behavior_enabled", False), ("controller_patience", 1.0), ("planner_patience", 1.0)):
         node.set_param(f"/tb3_0/move_base/{name}", value)
     roslaunch("rosmini_sim", "multi_navigation.launch", graph=graph, open_rviz=False)
     for name in ("controller_patience", "planner_patience"):  # the file's are longer
         node.set_param(f"/tb3_0/move_base/{name}", 1.0)
     graph.run(2.0)
-    first, second = (
-        send(graph, "/tb3_0", (3.0, 1.0, 0.0)),
-        send(graph, "/tb3_1", (-3.0, 1.0, 0.0)),
-    )
+    first, second = (send(graph, "/tb3_0", (3.0, 1.0, 0.0)), send(graph, "/tb3_1", (-3.0, 1.0, 0.0)))
     logs = hear(graph, "/rosout", "rosgraph_msgs/Log")
     graph.run(3.0)
     simulator = graph.nodes["/simulator"].program
@@ -143,9 +134,7 @@ def test_arguments_place_the_robot_and_amcl_agrees(model):
 
 
 def test_a_map_and_no_way_back_are_arguments(model):
-    plan = plan_of(
-        "turtlebot3_navigation", "turtlebot3_navigation.launch", map_file="/my.yaml", move_forward_only=True
-    )
+    plan = plan_of("turtlebot3_navigation", "turtlebot3_navigation.launch", map_file="/my.yaml", move_forward_only=True)
     assert plan.node("/map_server").args == "/my.yaml"
     assert plan.node("/amcl").type == "amcl"
     assert plan.settings["/move_base/DWAPlannerROS/min_vel_x"].value == 0.0
@@ -161,9 +150,7 @@ def test_a_careful_robot_plans_for_a_disc_of_its_model(model):
         assert plan.settings["/move_base/global_costmap/footprint"].value == "[]"
         radii[name] = plan.settings["/move_base/global_costmap/robot_radius"].value
     assert radii == {"burger": 0.12, "waffle": 0.15, "waffle_pi": 0.15}
-    plan = plan_of(
-        "turtlebot3_navigation", "turtlebot3_navigation.launch", careful=True, move_forward_only=True
-    )
+    plan = plan_of("turtlebot3_navigation", "turtlebot3_navigation.launch", careful=True, move_forward_only=True)
     assert plan.settings["/move_base/DWAPlannerROS/min_vel_x"].value == 0.0
     assert plan.settings["/move_base/last_reset/force_updating"].value is True
 
@@ -200,9 +187,7 @@ def test_rviz_opens_unless_it_is_not_wanted_as_in_the_public_files(files, model)
 
 
 def test_a_method_that_nobody_knows_has_no_launch_file(model):
-    with pytest.raises(
-        LaunchError, match=r"turtlebot3_magic\.launch\] cannot be read: there is no such file"
-    ):
+    with pytest.raises(LaunchError, match=r"turtlebot3_magic\.launch\] cannot be read: there is no such file"):
         plan_of("turtlebot3_slam", "turtlebot3_slam.launch", slam_methods="magic")
 
 

@@ -31,10 +31,7 @@ def test_the_installation_has_written_the_stubs(root: Path, tmp_path: Path) -> N
     write_stubs(tmp_path)
     assert write_stubs(tmp_path) == []
     written, installed = (
-        {
-            path.relative_to(folder).as_posix(): path.read_text(encoding="utf-8")
-            for path in folder.glob("*/*.pyi")
-        }
+        {path.relative_to(folder).as_posix(): path.read_text(encoding="utf-8") for path in folder.glob("*/*.pyi")}
         for folder in (tmp_path, root / "rosmini" / "msgs")
     )
     assert written == installed, "run `uv sync --reinstall-package rosmini-ros`"
@@ -53,13 +50,7 @@ def test_mypy_accepts_the_right_program_and_refuses_each_wrong_one(
     sources = {"right.py": RIGHT, **{f"wrong_{number}.py": text for number, (text, _) in enumerate(WRONG)}}
     for name, text in sources.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
-    arguments = [
-        "--strict",
-        "--config-file",
-        str(root / "pyproject.toml"),
-        "--cache-dir",
-        str(root / ".mypy_cache"),
-    ]
+    arguments = ["--strict", "--config-file", str(root / "pyproject.toml"), "--cache-dir", str(root / ".mypy_cache")]
     output, _, _ = mypy([*arguments, *(str(tmp_path / name) for name in sources)])
     lines = [line for line in output.splitlines() if ": error:" in line]
     assert not [line for line in lines if "right.py" in line], output

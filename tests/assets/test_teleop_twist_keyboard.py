@@ -25,10 +25,7 @@ def drive(keys, *arguments, kind=Twist):
             twist = getattr(message, "twist", message)
             seconds = round((graph.now() - start).to_sec(), 3)
             found.append(
-                (
-                    seconds,
-                    *(round(v, 6) for v in (twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.z)),
-                )
+                (seconds, *(round(v, 6) for v in (twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.z)))
             )
 
         graph.node("robot").subscriber("cmd_vel", kind, hear)

@@ -40,17 +40,13 @@ def test_it_builds_without_a_finding(workspace: Path) -> None:
     assert report.built == ["gazebo_models", "turtlesim_cleaner", "turtlebot3_ds"]
 
 
-def test_the_house_has_its_walls_and_its_furniture(
-    workspace: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_house_has_its_walls_and_its_furniture(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["world", "check", str(workspace / "src/turtlebot3_ds/worlds/turtlebot3_house.world")]) == 0
     (line,) = capsys.readouterr().out.splitlines()
     assert line.endswith("the world 'turtlebot3_house': 8 obstacles, 1 start, 8.2 m by 5.2 m")
 
 
-def test_the_launch_files_find_all_that_they_start(
-    workspace: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_launch_files_find_all_that_they_start(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for name in ("my_multi_turtlebot3", "turtlebot3_teleop_key_tb3_0", "turtlebot3_teleop_key_tb3_1"):
         assert main(["roslaunch", "turtlebot3_ds", f"{name}.launch", "--check"]) == 0
         assert "all is there" in capsys.readouterr().out

@@ -26,10 +26,7 @@ def test_the_dynamic_window_ignores_how_long_wheels_take_to_accelerate():
 
 def test_the_true_acceleration_predicts_better_than_that_of_the_files():
     sums = [
-        sum(
-            each.distance + 0.1 * abs(each.heading)
-            for each in nav_control.misses(acceleration, window=window)
-        )
+        sum(each.distance + 0.1 * abs(each.heading) for each in nav_control.misses(acceleration, window=window))
         for acceleration, window in ((2.5, True), (2.5, False), (1.0, False))
     ]
     assert sums[0] > sums[1] > sums[2]

@@ -12,17 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from rosmini_bench import (
-    sim,
-    sim_checks,
-    sim_engine,
-    sim_growth,
-    sim_mujoco,
-    sim_peer,
-    sim_physics,
-    sim_room,
-    sim_run,
-)
+from rosmini_bench import sim, sim_checks, sim_engine, sim_growth, sim_mujoco, sim_peer, sim_physics, sim_room, sim_run
 
 from rosmini.core.errors import RosminiError
 from rosmini.sim.models import BURGER
@@ -37,9 +27,7 @@ Robots = dict[str, Heard]
 
 
 @pytest.mark.nightly
-def test_the_simulator_is_measured_beside_the_others(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_simulator_is_measured_beside_the_others(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "figures.json"
     assert main(["bench", "sim", "--rounds", "1", "--scale", "0.01", "--json", str(file)]) == 0
     shown = capsys.readouterr().out
@@ -63,8 +51,7 @@ def test_the_simulator_is_measured_beside_the_others(
 def test_robots_have_room_for_their_circles_and_no_more_come_than_that() -> None:
     starts = sim_room.starts(100)
     middles = [
-        (x - sim_room.RADIUS * math.sin(heading), y + sim_room.RADIUS * math.cos(heading))
-        for x, y, heading in starts
+        (x - sim_room.RADIUS * math.sin(heading), y + sim_room.RADIUS * math.cos(heading)) for x, y, heading in starts
     ]
     apart = [math.dist(one, other) for i, one in enumerate(middles) for other in middles[:i]]
     assert min(apart) > 2 * (sim_room.RADIUS + BURGER.reach)
@@ -86,13 +73,7 @@ def run() -> tuple[Robots, float]:
 
     def take(heard: Robots, _model: Any, _seconds: float, way: float) -> None:
         taken.append(
-            (
-                {
-                    name: {topic: list(rows) for topic, rows in topics.items()}
-                    for name, topics in heard.items()
-                },
-                way,
-            )
+            ({name: {topic: list(rows) for topic, rows in topics.items()} for name, topics in heard.items()}, way)
         )
 
     with pytest.MonkeyPatch.context() as patch:
@@ -153,13 +134,7 @@ def test_wrong_ranges_give_no_figure() -> None:
 
 def peers_run(**changes: Any) -> dict[str, Any]:
     x, y, theta = sim_room.START
-    found = {
-        "poses": [[x, y, theta]],
-        "lengths": [1.0],
-        "expected": 1.0,
-        "angle_min": -math.pi,
-        "radius": 0.1,
-    }
+    found = {"poses": [[x, y, theta]], "lengths": [1.0], "expected": 1.0, "angle_min": -math.pi, "radius": 0.1}
     found["angle_increment"] = 2 * math.pi / 359
     world = sim_room.room()
     exact = sim.raycast(

@@ -24,9 +24,7 @@ def drawn(rows: list[str]) -> GridMap:
     return GridMap(fine, 0.05, (0.0, 0.0, 0.0), Path("drawn.yaml"))
 
 
-ROOM = drawn(
-    ["##########", "#........#", "#........#", "#..####..#", "#..#######", "#..#######", "##########"]
-)
+ROOM = drawn(["##########", "#........#", "#........#", "#..####..#", "#..#######", "#..#######", "##########"])
 
 
 def test_the_distance_of_a_cell_is_that_of_its_middle_from_the_nearest_wall() -> None:

@@ -19,8 +19,7 @@ def test_the_page_is_what_is_made_of_the_committed_rows():
 def test_rows_are_kept_and_counted(tmp_path):
     file = tmp_path / "rows.json"
     rows = [
-        Row("lost", "house", seed, "abc", {"found [s]": found})
-        for seed, found in ((2, None), (1, 20.0), (3, 40.0))
+        Row("lost", "house", seed, "abc", {"found [s]": found}) for seed, found in ((2, None), (1, 20.0), (3, 40.0))
     ]
     tracking = [
         Row("tracking", "house", seed, "abc", {"off [cm]": off, "in the ellipse": share})
@@ -42,7 +41,5 @@ def test_bench_measures_a_row_of_each_study(monkeypatch, capsys):
     monkeypatch.setattr(nav_located, "STUDIES", studies | {"lost": lost})
     nav_located.show(quick=True)
     shown = capsys.readouterr().out
-    assert (
-        "tracking:\n| what | off [cm] | seeds | commit |\n|---|---|---|---|\n| house | 5 (5) | 1 |" in shown
-    )
+    assert "tracking:\n| what | off [cm] | seeds | commit |\n|---|---|---|---|\n| house | 5 (5) | 1 |" in shown
     assert "lost: house is not here" in shown

@@ -12,17 +12,7 @@ import pytest
 
 import rosmini.book.exercises
 from rosmini.book import checks
-from rosmini.book.checks import (
-    Exercise,
-    NoAnswer,
-    Script,
-    Status,
-    UnknownExercise,
-    check,
-    exercise,
-    expect,
-    is_stub,
-)
+from rosmini.book.checks import Exercise, NoAnswer, Script, Status, UnknownExercise, check, exercise, expect, is_stub
 
 
 @exercise("wheels", praise="Six wheels it is.")
@@ -82,9 +72,7 @@ def test_of_an_answer_that_is_not_complete_it_says_where(answer, where):
     assert verdict.text == f"Exercise wheels: not right yet. There is still a `...` {where}."
 
 
-@pytest.mark.parametrize(
-    "answer", [None, 0, "", [], (), {}, int, Node, StubNode(), lambda: 7, print, lambda x: x]
-)
+@pytest.mark.parametrize("answer", [None, 0, "", [], (), {}, int, Node, StubNode(), lambda: 7, print, lambda x: x])
 def test_an_answer_is_not_a_stub(answer):
     assert not is_stub(answer)
 
@@ -93,18 +81,14 @@ def test_a_wrong_answer_is_told_why_with_a_hint():
     verdict = wheels.grade(5)
     assert verdict.status is Status.WRONG
     assert (
-        verdict.text
-        == "Exercise wheels: not right yet. A rover has 6 wheels, not 5.\nHint: count the middle ones too"
+        verdict.text == "Exercise wheels: not right yet. A rover has 6 wheels, not 5.\nHint: count the middle ones too"
     )
 
 
 def test_an_answer_that_raises_is_wrong_and_says_what_it_raised():
     verdict = doubling.grade(lambda x: x / 0)
     assert verdict.status is Status.WRONG
-    assert (
-        verdict.text
-        == "Exercise doubling: not right yet. Your code raised ZeroDivisionError: division by zero"
-    )
+    assert verdict.text == "Exercise doubling: not right yet. Your code raised ZeroDivisionError: division by zero"
 
 
 def test_an_answer_of_another_form_is_not_code_that_raised():
@@ -115,10 +99,7 @@ def test_an_answer_of_another_form_is_not_code_that_raised():
         "Exercise lower: not right yet. {1: 2} does not have the expected form: "
         "AttributeError: 'dict' object has no attribute 'lower'\nHint: compare it with the stub"
     )
-    assert (
-        "Your code raised AttributeError"
-        in Exercise("lower", "", lambda answer: answer.lower()).grade(1).text
-    )
+    assert "Your code raised AttributeError" in Exercise("lower", "", lambda answer: answer.lower()).grade(1).text
 
 
 def test_a_check_that_wants_a_script_says_so():
@@ -217,9 +198,7 @@ def test_without_an_answer_the_script_of_the_cell_is_checked(scripts, capsys):
 
 def test_a_cell_that_was_not_run_is_said(scripts, monkeypatch):
     put(scripts, "other.py", "x = 1", "# Exercise: wheels")
-    with pytest.raises(
-        NoAnswer, match=r"run the %%node cell that has `# Exercise: wheels` in its second line"
-    ):
+    with pytest.raises(NoAnswer, match=r"run the %%node cell that has `# Exercise: wheels` in its second line"):
         check("wheels")
     monkeypatch.setenv("ROS_PACKAGE_PATH", "")
     with pytest.raises(NoAnswer):

@@ -34,9 +34,7 @@ def test_the_checkout_is_found_from_below(monkeypatch):
 
 def test_outside_of_a_checkout_the_command_says_where_it_looked(monkeypatch, tmp_path, capsys):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(
-        checkout, "__file__", str(tmp_path / "site-packages" / "rosmini" / "tools" / "checkout.py")
-    )
+    monkeypatch.setattr(checkout, "__file__", str(tmp_path / "site-packages" / "rosmini" / "tools" / "checkout.py"))
     with pytest.raises(NoCheckout):
         find_checkout()
     assert main.main(["book"]) == 1
@@ -123,11 +121,7 @@ def test_a_build_leaves_nothing_of_the_one_before_and_touches_nothing_else(tmp_p
     assert build_book(folder, tmp_path / "out") == html / "index.html"
     assert not (html / "stale.html").exists()
     assert (html.parent / "mine.txt").exists()
-    assert sorted(path.name for path in (folder / "book").iterdir()) == [
-        "_config.yml",
-        "_toc.yml",
-        "intro.md",
-    ]
+    assert sorted(path.name for path in (folder / "book").iterdir()) == ["_config.yml", "_toc.yml", "intro.md"]
 
 
 def test_the_error_without_jupyter_book(monkeypatch, tmp_path):
@@ -158,11 +152,7 @@ def listening_addresses(port: int) -> set[str]:
         for table in ("tcp", "tcp6")
         for row in Path(f"/proc/net/{table}").read_text(encoding="utf-8").splitlines()[1:]
     ]
-    return {
-        row[1].partition(":")[0]
-        for row in rows
-        if row[3] == "0A" and int(row[1].partition(":")[2], 16) == port
-    }
+    return {row[1].partition(":")[0] for row in rows if row[3] == "0A" and int(row[1].partition(":")[2], 16) == port}
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="reads /proc to see who listens")
@@ -171,9 +161,7 @@ def test_lab_serves_the_notebooks_on_this_machine_only(tmp_path):
     port = free_port()
     environment = os.environ | {"HOME": str(tmp_path), "JUPYTER_TOKEN": "t0ken", "PYTHONUNBUFFERED": "1"}
     command = [sys.executable, "-m", "rosmini", "lab", "--no-open", "--port", port]
-    with start(
-        command, cwd=ROOT, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
-    ) as server:
+    with start(command, cwd=ROOT, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as server:
         for line in server.stdout:
             if re.search(rf"http://127\.0\.0\.1:{port}/lab", line):
                 break
@@ -182,9 +170,7 @@ def test_lab_serves_the_notebooks_on_this_machine_only(tmp_path):
         # It tells its address a moment before it listens.
         wait_until(lambda: listens(port), "JupyterLab", server)
         names = {entry["name"] for entry in ask(f"http://127.0.0.1:{port}/api/contents")["content"]}
-        assert names == {
-            path.name for path in (ROOT / "notebooks").iterdir() if not path.name.startswith(".")
-        }
+        assert names == {path.name for path in (ROOT / "notebooks").iterdir() if not path.name.startswith(".")}
         assert listening_addresses(port) == {"0100007F"}
         plugin = "@jupyterlab/apputils-extension:notification"
         settings = ask(f"http://127.0.0.1:{port}/lab/api/settings/{plugin}")
@@ -235,11 +221,7 @@ def test_lab_trusts_the_notebooks_that_are_the_repositorys(copy):
     (copy / "b.ipynb").write_text(changed, encoding="utf-8")
     (copy / "c.ipynb").write_text(changed.replace("'1'", "'2'"), encoding="utf-8")
     assert lab.trust(copy) == 1
-    assert [is_trusted(copy / name) for name in ("part/a.ipynb", "b.ipynb", "c.ipynb")] == [
-        True,
-        False,
-        False,
-    ]
+    assert [is_trusted(copy / name) for name in ("part/a.ipynb", "b.ipynb", "c.ipynb")] == [True, False, False]
 
 
 @pytest.mark.skipif(shutil.which("git") is None, reason="needs git")
@@ -251,9 +233,7 @@ def test_lab_opens_the_first_steps_and_a_copy_keeps_what_is_in_it(tmp_path):
         (folder / "1_start").mkdir(parents=True, exist_ok=True)
         (folder / "1_start" / f"{name}.ipynb").write_text(text, encoding="utf-8")
     assert lab.copy_notebooks(source, target) == target
-    copied = [
-        (target / "1_start" / f"{name}.ipynb").read_text(encoding="utf-8") for name in ("steps", "more")
-    ]
+    copied = [(target / "1_start" / f"{name}.ipynb").read_text(encoding="utf-8") for name in ("steps", "more")]
     assert copied == ["mine", "new"]
 
 

@@ -54,9 +54,7 @@ def checkout(tmp_path_factory):
             (folder / name).write_text(text, encoding="utf-8")
     info = folder / "examples-1.0.dist-info"
     info.mkdir()
-    info.joinpath("METADATA").write_text(
-        "Metadata-Version: 2.1\nName: examples\nVersion: 1.0\n", encoding="utf-8"
-    )
+    info.joinpath("METADATA").write_text("Metadata-Version: 2.1\nName: examples\nVersion: 1.0\n", encoding="utf-8")
     listed = "\n\n".join("\n".join([f"[{group}]", *entries]) for group, entries in groups.items())
     info.joinpath("entry_points.txt").write_text(listed, encoding="utf-8")
     return folder
@@ -69,16 +67,7 @@ def test_there_is_one_for_each_kind_of_thing():
 def test_their_own_tests_pass(checkout):
     tests = [name for blocks in EXAMPLES.values() for name, _ in blocks if name.startswith("tests/")]
     assert len(tests) == len(EXAMPLES) - 1  # a chapter has no test file
-    command = [
-        sys.executable,
-        "-m",
-        "pytest",
-        "-q",
-        "--import-mode=importlib",
-        "-p",
-        "no:cacheprovider",
-        *tests,
-    ]
+    command = [sys.executable, "-m", "pytest", "-q", "--import-mode=importlib", "-p", "no:cacheprovider", *tests]
     done = run(command, cwd=checkout, env=environment(checkout))
     assert done.returncode == 0, done.stdout + done.stderr
 

@@ -14,10 +14,7 @@ def stream(text: str):
 
 
 def notebook(*cells, **metadata):
-    metadata = {
-        "kernelspec": dict(notebooks.KERNELSPEC),
-        "language_info": dict(notebooks.LANGUAGE),
-    } | metadata
+    metadata = {"kernelspec": dict(notebooks.KERNELSPEC), "language_info": dict(notebooks.LANGUAGE)} | metadata
     return new_notebook(cells=list(cells), metadata=metadata)
 
 
@@ -25,9 +22,7 @@ def code(source: str, count: int | None = 1, *outputs, **metadata):
     return new_code_cell(source, execution_count=count, outputs=list(outputs), metadata=metadata)
 
 
-ONE_SIDED = (
-    "folded in the book or in JupyterLab only: the tag hide-input and jupyter.source_hidden go together"
-)
+ONE_SIDED = "folded in the book or in JupyterLab only: the tag hide-input and jupyter.source_hidden go together"
 FOLDED = {"tags": ["hide-input"], "jupyter": {"source_hidden": True}}
 
 
@@ -42,39 +37,21 @@ def test_a_clean_notebook_has_no_problems():
         (code("x = 1", None), "cell 1 was not executed: 'x = 1'"),
         (code("x = 1", 7), "cell 1 was executed as number 7, not 1: run all, from the top: 'x = 1'"),
         (code("x", tags=["nbval-skip"]), "cell 1 has the tag nbval-skip and gives no reason: 'x'"),
-        (
-            code("x", tags=["raises-exception"]),
-            "cell 1 has the tag raises-exception and gives no reason: 'x'",
-        ),
+        (code("x", tags=["raises-exception"]), "cell 1 has the tag raises-exception and gives no reason: 'x'"),
         (
             code("# NBVAL_IGNORE_OUTPUT\nx"),
             "cell 1 has the comment NBVAL_IGNORE_OUTPUT and gives no reason: '# NBVAL_IGNORE_OUTPUT'",
         ),
-        (
-            code("x", execution={"iopub.status.busy": "2026"}),
-            "cell 1 has metadata of a tool or a run (execution): 'x'",
-        ),
+        (code("x", execution={"iopub.status.busy": "2026"}), "cell 1 has metadata of a tool or a run (execution): 'x'"),
         (code("", None), "cell 1 is empty: ''"),
-        *(
-            (
-                code("x", **{key: FOLDED[key]}),
-                f"cell 1 is {ONE_SIDED}: 'x'",
-            )
-            for key in FOLDED
-        ),
-        (
-            code("clear_output()"),
-            "cell 1 uses clear_output, whose output nbval cannot compare: 'clear_output()'",
-        ),
+        *((code("x", **{key: FOLDED[key]}), f"cell 1 is {ONE_SIDED}: 'x'") for key in FOLDED),
+        (code("clear_output()"), "cell 1 uses clear_output, whose output nbval cannot compare: 'clear_output()'"),
         (
             code("save('a');"),
             "cell 1 hides its value with a semicolon, which nbval does not see: assign it: \"save('a');\"",
         ),
         (code("x", 1, stream("A=/opt/ros/x")), "cell 1 printed a path of this machine ('/opt/r'): 'x'"),
-        (
-            code("x", 1, stream("<f at 0x7f00deadbeef>")),
-            "cell 1 printed a memory address ('0x7f00deadbeef'): 'x'",
-        ),
+        (code("x", 1, stream("<f at 0x7f00deadbeef>")), "cell 1 printed a memory address ('0x7f00deadbeef'): 'x'"),
         (code("x", 1, stream("in /home/me/x.py")), "cell 1 printed a path of this machine ('/home/m'): 'x'"),
         (code("x", 1, stream("http://127.0.0.1:7000")), "cell 1 printed a local address ('127.0.0.1'): 'x'"),
         (
@@ -110,9 +87,7 @@ def test_what_is_accepted(cell):
 
 @pytest.mark.parametrize("fence", ["> ```console", "> ~~~console", "~~~yaml", "> > ```"])
 def test_a_fence_that_jupyterlab_shows_wrongly_is_refused(fence):
-    problem, *others = notebooks.problems(
-        notebook(new_markdown_cell(f"> **On a real robot.**\n>\n{fence}\n"))
-    )
+    problem, *others = notebooks.problems(notebook(new_markdown_cell(f"> **On a real robot.**\n>\n{fence}\n")))
     assert fence in problem
     assert others == []
 

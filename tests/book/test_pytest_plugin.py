@@ -27,16 +27,7 @@ def test_nbval_runs_notebooks_in_the_form_of_the_book_and_leaves_other_tests_alo
     (tmp_path / "test_b.py").write_text(
         "import os\ndef test(): assert os.environ.get('ROSMINI_DISPLAY') == 'before'\n", encoding="utf-8"
     )
-    command = [
-        sys.executable,
-        "-m",
-        "pytest",
-        "-q",
-        "--nbval",
-        "--nbval-current-env",
-        "-p",
-        "no:cacheprovider",
-    ]
+    command = [sys.executable, "-m", "pytest", "-q", "--nbval", "--nbval-current-env", "-p", "no:cacheprovider"]
     environment = os.environ | {"ROSMINI_DISPLAY": "before"}
     done = {
         plugin: run([*command, *plugin, tmp_path], env=environment, cwd=tmp_path)

@@ -49,9 +49,5 @@ def test_the_figures_and_tables_that_it_names_are_there():
     assert named
     for name, file, label in named:
         path = BOOK / "about" / file
-        prose = (
-            notebooks.prose(notebooks.read(path))
-            if path.suffix == ".ipynb"
-            else [path.read_text(encoding="utf-8")]
-        )
+        prose = notebooks.prose(notebooks.read(path)) if path.suffix == ".ipynb" else [path.read_text(encoding="utf-8")]
         assert f'<a id="{label}"></a>{name}: ' in "\n".join(prose)

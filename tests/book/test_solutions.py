@@ -46,10 +46,7 @@ def test_the_line_of_the_magic_stays_with_a_script():
         ({"stub": "names = ..."}, "no stub for the exercise stop"),
         ({"check": "# check"}, "no check for the exercise stop"),
         ({"solution": "none"}, "no solution for the exercise stop"),
-        (
-            {"solution": TEXT.replace("```python", "```")},
-            "the solution to the exercise stop has no ```python block",
-        ),
+        ({"solution": TEXT.replace("```python", "```")}, "the solution to the exercise stop has no ```python block"),
     ],
 )
 def test_a_part_is_missing(change, message):

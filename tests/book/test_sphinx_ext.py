@@ -152,10 +152,7 @@ def test_a_box_between_tags_keeps_its_code(page):
 
 def test_other_quotes_stay_quotes(page):
     quotes = re.findall(r"<blockquote>\s*<div><p>(.*?)</p>", page)
-    assert quotes == [
-        "<strong>Bold</strong> words begin this quote, which stays one.",
-        "Plain words begin this one.",
-    ]
+    assert quotes == ["<strong>Bold</strong> words begin this quote, which stays one.", "Plain words begin this one."]
 
 
 def test_solutions_are_folded_with_their_code_highlighted(page):
@@ -183,9 +180,7 @@ def test_a_stored_figure_is_shown_with_another_caption(page):
     assert "Its own caption" not in page
 
 
-@pytest.mark.parametrize(
-    ("url", "text"), [("", "a copy of this repository"), ("https://example.org/r", "(https://")]
-)
+@pytest.mark.parametrize(("url", "text"), [("", "a copy of this repository"), ("https://example.org/r", "(https://")])
 def test_the_address_of_the_repository_is_one_setting(url, text, tmp_path):
     config = SimpleNamespace(html_theme_options={"repository_url": url}, myst_substitutions={})
     substitute(SimpleNamespace(srcdir=tmp_path), config)

@@ -201,9 +201,7 @@ def jupyterlab(tmp_path_factory):
     ]
     with (
         (tmp_path / "lab.log").open("wb") as log,
-        start(
-            [sys.executable, "-m", "jupyterlab", *arguments], env=os.environ | own, stdout=log, stderr=log
-        ) as server,
+        start([sys.executable, "-m", "jupyterlab", *arguments], env=os.environ | own, stdout=log, stderr=log) as server,
     ):
         wait_until(lambda: listens(port), "JupyterLab", server)
         try:
@@ -248,9 +246,7 @@ def solid_tabs(webgl):
     return Tabs(webgl)
 
 
-SQUARE = World(
-    "square", walls=np.array([(-2, -2, 2, -2), (2, -2, 2, 2), (2, 2, -2, 2), (-2, 2, -2, -2)], dtype=float)
-)
+SQUARE = World("square", walls=np.array([(-2, -2, 2, -2), (2, -2, 2, 2), (2, 2, -2, 2), (-2, 2, -2, -2)], dtype=float))
 
 
 @pytest.fixture(scope="session")

@@ -53,11 +53,7 @@ def _world():
 
 def _plot():
     times = np.arange(0.0, 5.01, 0.25)
-    series = {
-        "wanted": (times, np.sign(times - 2)),
-        "sent": (times, np.tanh(times - 2)),
-        "rest": (times, 0.1 * times),
-    }
+    series = {"wanted": (times, np.sign(times - 2)), "sent": (times, np.tanh(times - 2)), "rest": (times, 0.1 * times)}
     return plot(series, x="time [s]", y="speed [m/s]")
 
 
@@ -98,9 +94,7 @@ def _rviz():
         node = graph.node("robot")
         cells = np.zeros((20, 30), dtype=np.int8)
         cells[0], cells[:, 0], cells[8:12, 14:18], cells[:, 25:] = 100, 100, 100, -1
-        costs = np.clip(
-            100 - 8 * np.hypot(*np.meshgrid(np.arange(30) - 15, np.arange(20) - 9)), 0, 100
-        ).astype(np.int8)
+        costs = np.clip(100 - 8 * np.hypot(*np.meshgrid(np.arange(30) - 15, np.arange(20) - 9)), 0, 100).astype(np.int8)
         for topic, values in (("/map", cells), ("/costmap", costs)):
             message = OccupancyGrid(data=values.ravel().tolist())
             message.header.frame_id = "map"

@@ -32,9 +32,7 @@ def cells(png: bytes) -> Floats:
 
 def difference(one: Floats, other: Floats) -> Floats:
     """How much each block of two pictures of one size, given by their cells, differs in its worst channel, 0 to 255."""
-    ours, theirs = (
-        (each[:-1, :-1] + each[1:, :-1] + each[:-1, 1:] + each[1:, 1:]) / 4 for each in (one, other)
-    )
+    ours, theirs = ((each[:-1, :-1] + each[1:, :-1] + each[:-1, 1:] + each[1:, 1:]) / 4 for each in (one, other))
     worst: Floats = np.maximum(_beyond(ours, theirs), _beyond(theirs, ours))
     return worst
 

@@ -62,9 +62,7 @@ def layered():
     half[:20] = 100
     maps = tuple(Grid(cells, 0.1, (-2.0, -2.0, 0.0)) for cells in (half, np.full_like(half, 100)))
     body = Body("base_footprint", times, np.column_stack([0.1 * times, 0 * times, 0 * times]))
-    plan = Shapes(
-        "/plan", np.array([0.0]), ((Shape("line", np.array([(0.0, 1.0), (1.5, 1.0)]), "#00ff00"),),)
-    )
+    plan = Shapes("/plan", np.array([0.0]), ((Shape("line", np.array([(0.0, 1.0), (1.5, 1.0)]), "#00ff00"),),))
     run = Run("layered", 0.0, 10.0, (body,), (Grids("/map", np.array([0.0, 5.0]), maps), plan))
     return replay_3d(run, robot="burger", focus="world", elevation=80)
 
@@ -201,19 +199,13 @@ def test_the_drawing_is_what_the_viewer_shows_first(open_page, path, shared_tmp)
 def test_equal_robots_share_their_geometry(open_page, path):
     page = open_page(path)
     first, second = (f"meshcat/models/{name}/base_footprint/0/<object>" for name in ("a", "b"))
-    assert viewer(
-        page, f"{node(first)} !== {node(second)} && {node(first)}.geometry === {node(second)}.geometry"
-    )
-    assert viewer(
-        page, f"{node(second)}.castShadow && {node(second)}.geometry.attributes.position.count > 100"
-    )
+    assert viewer(page, f"{node(first)} !== {node(second)} && {node(first)}.geometry === {node(second)}.geometry")
+    assert viewer(page, f"{node(second)}.castShadow && {node(second)}.geometry.attributes.position.count > 100")
     apart = viewer(page, f"(viewer.set_dirty(), {node(second)}.parent.parent.parent.matrix.elements[13])")
     assert apart == pytest.approx(0.3)
 
 
-@pytest.mark.parametrize(
-    ("path", "scheme"), [("deep/er/rviz.html", "light"), *nightly(("alone_rviz.html", "dark"))]
-)
+@pytest.mark.parametrize(("path", "scheme"), [("deep/er/rviz.html", "light"), *nightly(("alone_rviz.html", "dark"))])
 def test_a_scene_of_rviz_has_its_own_background_a_map_and_words(open_page, shared_tmp, path, scheme):
     page = open_page(path, scheme=scheme)
     page.wait_for_function(
@@ -285,9 +277,7 @@ def test_a_played_scan_is_the_recorded_one(open_page):
 
 def test_what_a_sweeping_laser_hit_lies_on_the_walls(open_page, site, turning, off_the_walls, shared_tmp):
     """Also between two scans, while the robot turns on."""
-    (site / "turning.html").write_text(
-        f"<!DOCTYPE html><title>t</title>{replay_3d(turning).page}", encoding="utf-8"
-    )
+    (site / "turning.html").write_text(f"<!DOCTYPE html><title>t</title>{replay_3d(turning).page}", encoding="utf-8")
     page = open_page("turning.html")
     cloud, root = node("meshcat/robots/robot/scan/<object>"), node("meshcat")
     for time in (1.5, 2.25, 3.1):
@@ -388,9 +378,7 @@ def test_the_path_that_is_still_to_come_is_not_shown(open_page):
 
 
 @pytest.mark.parametrize(("scheme", "width"), [("light", 900), *nightly(("dark", 390))])
-def test_two_runs_have_one_clock_and_one_bar_and_are_seen_from_the_same_side(
-    open_page, shared_tmp, scheme, width
-):
+def test_two_runs_have_one_clock_and_one_bar_and_are_seen_from_the_same_side(open_page, shared_tmp, scheme, width):
     page = open_page("deep/er/two.html", scheme=scheme, width=width)
     page.locator("iframe").nth(1).scroll_into_view_if_needed()
     page.wait_for_function("document.querySelectorAll('iframe[data-ready]').length === 2")

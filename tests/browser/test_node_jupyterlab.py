@@ -13,11 +13,7 @@ import rospy
 rospy.init_node("ask")
 rospy.sleep(1)
 print("hello", input("who? "), "from the robot")"""
-CELLS = [
-    "%load_ext rosmini\n%roscore",
-    ASK,
-    "import rosmini\nrosmini.wait(2)",
-]
+CELLS = ["%load_ext rosmini\n%roscore", ASK, "import rosmini\nrosmini.wait(2)"]
 
 
 def test_what_is_typed_below_the_cell_is_what_the_script_reads(open_in_lab, chromium, shared_tmp):

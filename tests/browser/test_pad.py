@@ -161,10 +161,7 @@ def test_the_same_keys_give_the_same_messages_as_in_python(bare):
         if name == "turtlebot3_teleop_key":
             keys += ["w"] * 60 + ["d"] * 60 + [None] * 120 + ["x"] * 99 + ["ArrowLeft"] * 99 + [None] * 120
         teleop = Teleop(limits, key_map(name))
-        ours = [
-            (*(teleop.cycle() if key is None else teleop.press(key)), *teleop.aside, *teleop.speed)
-            for key in keys
-        ]
+        ours = [(*(teleop.cycle() if key is None else teleop.press(key)), *teleop.aside, *teleop.speed) for key in keys]
         theirs = bare.evaluate(
             """([table, keys]) => {
               const teleop = new rosminiTeleop.Teleop(table);
@@ -181,9 +178,7 @@ def test_a_message_is_shown_as_rostopic_echo_prints_it(bare, velocity):
     twist = Twist()
     twist.linear.x, twist.angular.z = velocity
     twist.linear.y = velocity[0]
-    shown = bare.evaluate(
-        "([linear, angular]) => rosminiTeleop.yaml({linear, angular, aside: [linear, 0]})", velocity
-    )
+    shown = bare.evaluate("([linear, angular]) => rosminiTeleop.yaml({linear, angular, aside: [linear, 0]})", velocity)
     assert shown == f"{twist}\n---"
 
 
@@ -255,8 +250,7 @@ def test_the_laser_looks_over_walls_that_are_low(bare):
     _, simulator = simulated(world=replace(HALL, wall_height=0.1))
     data = pad_data(TeleopPad(simulator))
     hits = bare.evaluate(
-        "({scene, pose}) => [...rosminiTeleop.laser(scene, pose)].filter((range) => range < Infinity).length",
-        data,
+        "({scene, pose}) => [...rosminiTeleop.laser(scene, pose)].filter((range) => range < Infinity).length", data
     )
     assert hits == np.isfinite(simulator.engine.scan(simulator.name, None)).sum()
     assert 0 < hits < 100
@@ -264,9 +258,7 @@ def test_the_laser_looks_over_walls_that_are_low(bare):
 
 def test_a_laser_that_does_not_look_all_around_is_the_engines(bare):
     with Graph() as graph:
-        stage = rosrun(
-            "stage_ros", "stageros", "package://stage_ros/world/boxes.world", graph=graph
-        ).instance()
+        stage = rosrun("stage_ros", "stageros", "package://stage_ros/world/boxes.world", graph=graph).instance()
         measured = stage.engine.scan("robot_0", None)
         data = pad_data(stage.pad())
     cast = bare.evaluate(
@@ -336,9 +328,7 @@ def test_real_keys_drive_and_each_message_is_shown(show, name):
     twist.linear.x, twist.angular.z = 0.025, 0.05
     assert pad.message == f"{twist}\n---"
     twist.linear.x, twist.angular.z = 0.02, 0.0
-    assert (
-        pad.page.locator(".rp-log pre").all_text_contents()[-2] == f"{twist}\n---"
-    )  # the one before is above it
+    assert pad.page.locator(".rp-log pre").all_text_contents()[-2] == f"{twist}\n---"  # the one before is above it
     assert "5 messages" in pad.page.locator(".rp-command").inner_text()
     pad.run(2.0)
     twist.linear.x, twist.angular.z = 0.04, 0.1
@@ -401,9 +391,7 @@ def test_capitals_and_other_alphabets_drive_too_but_shortcuts_of_the_browser_do_
     pad.stage.focus()
     pad.page.keyboard.press("Shift+W")
     pad.stage.dispatch_event("keydown", {"key": "ц", "code": "KeyW"})  # the same key on a Russian keyboard
-    pad.stage.dispatch_event(
-        "keydown", {"key": "z", "code": "KeyW"}
-    )  # and on a French one, which has a w elsewhere
+    pad.stage.dispatch_event("keydown", {"key": "z", "code": "KeyW"})  # and on a French one, which has a w elsewhere
     pad.run(1.0)
     assert "x: 0.02" in pad.message
 
@@ -488,9 +476,7 @@ def test_whoever_leaves_the_pad_stops_the_robot_with_one_message(show):
         pad.run(1.0)
         assert pad.mood == "driving"
         leave()
-        pad.page.wait_for_function(
-            "document.querySelector('.rp-log').lastChild.textContent.includes('x: 0.0\\n  y')"
-        )
+        pad.page.wait_for_function("document.querySelector('.rp-log').lastChild.textContent.includes('x: 0.0\\n  y')")
         pad.run(1.0)
         assert pad.mood == "ready"
         *_, before, last = pad.page.locator(".rp-log pre").all_text_contents()
@@ -527,11 +513,7 @@ def test_the_keys_of_another_program_and_a_dead_mans_switch(show):
     keys.select_option("teleop_twist_keyboard")
     assert pad.focused() == "rp-stage"
     pad.run(0.1)
-    assert [b.get_attribute("data-key") for b in pad.page.locator(".rp-key").all()] == [
-        *"uiojklm,.",
-        "z",
-        "q",
-    ]
+    assert [b.get_attribute("data-key") for b in pad.page.locator(".rp-key").all()] == [*"uiojklm,.", "z", "q"]
     assert "any other key: stop" in pad.page.locator(".rp-help").inner_text()
     pad.keys("u")
     pad.run(0.3)
@@ -587,12 +569,7 @@ def test_a_gamepad_drives_while_its_switch_is_held(show):
     assert pad.mood == "ready"  # the pad has not the focus
 
 
-PHONE = {
-    "viewport": {"width": 390, "height": 844},
-    "has_touch": True,
-    "is_mobile": True,
-    "device_scale_factor": 2,
-}
+PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True, "device_scale_factor": 2}
 
 
 @pytest.mark.parametrize("name", ["blind", *nightly("light")])
@@ -702,9 +679,7 @@ def test_the_book_form_is_small_and_the_same_each_time(monkeypatch):
     assert set(data) == {"text/plain", "text/html"}
     assert data["text/html"] == simulated()[1].pad().html
     assert len(data["text/html"]) < 30_000
-    start = data["text/html"].index('<script type="application/json">') + len(
-        '<script type="application/json">'
-    )
+    start = data["text/html"].index('<script type="application/json">') + len('<script type="application/json">')
     told = json.loads(data["text/html"][start : data["text/html"].index("</script>", start)])
     robots = ("turtlebot3_teleop_key", "teleop_twist_keyboard")
     assert told["maps"] == [table(Limits(), key_map(name)) for name in robots]

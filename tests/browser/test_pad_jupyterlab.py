@@ -175,9 +175,7 @@ def test_a_pad_without_a_robot_and_a_kernel_that_restarts(open_lab, shared_tmp):
         lab.mood("waiting")
         page.locator(".rp-pill", has_text="run the cell of this pad again").wait_for()
         lab.run(0)
-        page.locator(".rp-pill", has_text="press a key").or_(
-            page.locator(".rp-pill", has_text="live")
-        ).wait_for()
+        page.locator(".rp-pill", has_text="press a key").or_(page.locator(".rp-pill", has_text="live")).wait_for()
         stage.focus()
         page.keyboard.press("w")
         lab.mood("driving")

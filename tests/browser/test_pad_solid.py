@@ -39,9 +39,7 @@ def test_the_keys_drive_a_robot_in_three_dimensions_and_the_camera_goes_along(we
     page.wait_for_selector("iframe[data-ready]")
     assert not page.locator(".rp-sight canvas").first.is_visible()
     before = page.evaluate(ROBOT)
-    page.locator(".rp-stage").click(
-        position={"x": 120, "y": 120}
-    )  # on the picture, which the keys are for then
+    page.locator(".rp-stage").click(position={"x": 120, "y": 120})  # on the picture, which the keys are for then
     for _ in range(12):
         page.keyboard.press("w")
     page.keyboard.press("a")

@@ -159,12 +159,7 @@ def test_a_page_on_loopback_drives_the_node_s_turtle(chromium, watch):
             until(lambda: turtle.x > 7.4)
             until(lambda: "x: 2.0" in page.locator(".rp-log").first.inner_text())
             until(lambda: page.locator(".rp-poses").inner_text().startswith(f"x: {turtle.x:.3f}"))
-            assert page.evaluate(PIXEL, [round(2 * 45 * 6.4), round(2 * 45 * 5.544445)]) == [
-                179,
-                184,
-                255,
-                255,
-            ]
+            assert page.evaluate(PIXEL, [round(2 * 45 * 6.4), round(2 * 45 * 5.544445)]) == [179, 184, 255, 255]
             assert not page.get_by_label("Drive", exact=True).is_visible()
             sim.spawn(2.0, 2.0, 0.0)
             until(lambda: page.get_by_label("Drive", exact=True).is_visible())

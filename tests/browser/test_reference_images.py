@@ -75,9 +75,7 @@ class Shown:
             f'<!DOCTYPE html><html data-theme="{"dark" if theme == "dark" else "light"}">'
             f"<head><style>{SHEET}</style></head><body>{html}</body></html>"
         )
-        page.evaluate(
-            "document.fonts.load('12px Reference').then(() => document.fonts.ready).then(() => true)"
-        )
+        page.evaluate("document.fonts.load('12px Reference').then(() => document.fonts.ready).then(() => true)")
 
     def shapes(self):
         """The cells of a screenshot without words."""
@@ -161,9 +159,7 @@ def test_a_word_a_shape_or_a_colour_that_goes_missing_is_seen(show, kind):
         count += 1
         limits = {"shapes": SHAPES, "words": WORDS}
         if not any(why(each, before[where], limits[where]) for where, each in after.items()):
-            missed.append(
-                (what, [round(difference(each, before[where]).max(), 1) for where, each in after.items()])
-            )
+            missed.append((what, [round(difference(each, before[where]).max(), 1) for where, each in after.items()]))
     assert missed == []
     assert count >= 4
 
@@ -195,14 +191,11 @@ def test_on_paper_the_lines_of_a_plot_differ_without_their_colours(show):
     """In the greys of a printer each line is another one."""
     shown = show("plot", "print")
     colours = shown.page.evaluate(
-        """(parts) => [...document.querySelectorAll(parts)].map((each) => getComputedStyle(each).stroke)""",
-        PARTS,
+        """(parts) => [...document.querySelectorAll(parts)].map((each) => getComputedStyle(each).stroke)""", PARTS
     )
     greys = sorted(
         0.299 * r + 0.587 * g + 0.114 * b
-        for r, g, b in (
-            map(int, colour[4:-1].split(", ")) for colour in set(colours) if colour.startswith("rgb(")
-        )
+        for r, g, b in (map(int, colour[4:-1].split(", ")) for colour in set(colours) if colour.startswith("rgb("))
     )
     assert len(greys) >= 4  # three lines and the grid
     assert min(np.diff(greys)) > 20

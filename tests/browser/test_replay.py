@@ -82,9 +82,7 @@ def write(tmp_path, monkeypatch):
         body = before + "\n".join(recording.replay().html for recording in recordings)
         background = (style.DARK if theme == "dark" else style.LIGHT)["page"]
         path = folder / f"{form}.html"
-        path.write_text(
-            PAGE.format(theme=theme, head=head, body=body, background=background), encoding="utf-8"
-        )
+        path.write_text(PAGE.format(theme=theme, head=head, body=body, background=background), encoding="utf-8")
         return path.as_uri()
 
     return write
@@ -337,9 +335,7 @@ def test_a_change_of_the_theme_and_of_the_width_is_followed(write, opened, recor
     page.evaluate("document.documentElement.dataset.theme = 'dark'")
     page.wait_for_function(f"({COUNT})([document.querySelector('canvas'), [20, 24, 30]]) > 5000")
     page.set_viewport_size({"width": 420, "height": 800})
-    page.wait_for_function(
-        "(c => c.width === c.clientWidth && c.width < 500)(document.querySelector('canvas'))"
-    )
+    page.wait_for_function("(c => c.width === c.clientWidth && c.width < 500)(document.querySelector('canvas'))")
     painted(page)
     assert count(page, "page", style.DARK) > 5000
 
@@ -491,9 +487,7 @@ recorder.recording().replay()
 
 
 @pytest.mark.parametrize("width", ["phone", *nightly("desktop")])
-def test_the_theme_of_the_book_does_not_disturb_its_layout(
-    book_html, opened, recording, monkeypatch, tmp_path, width
-):
+def test_the_theme_of_the_book_does_not_disturb_its_layout(book_html, opened, recording, monkeypatch, tmp_path, width):
     monkeypatch.setenv("ROSMINI_DISPLAY", "book")
     chapter = (book_html / "notebooks" / "2_graph/10_nodes_and_master.html").read_text(encoding="utf-8")
     begin = chapter.index('<div class="output text_html">') + len('<div class="output text_html">')
@@ -525,10 +519,7 @@ def test_other_robots_and_what_moves_are_drawn_where_they_are(recording, write, 
     moved = Moved(walker, np.array([0.0, end]), np.array([(2.4, 1.6, 0.0), (2.4, 0.4, 0.0)]))
     other = replace(recording, truth=truth + (0.0, 0.8, 0.0), name="tb3_1", model=model("waffle"))
     together = replace(recording, name="tb3_0", others=(other,), things=(moved,))
-    for theme, palette, tint in (
-        ("light", style.LIGHT, "#102040"),
-        ("dark", style.DARK, style.dark_of("#102040")),
-    ):
+    for theme, palette, tint in (("light", style.LIGHT, "#102040"), ("dark", style.DARK, style.dark_of("#102040"))):
         page = opened(write(together, theme=theme), color_scheme=theme)
         canvas = page.locator(".rosmini-replay canvas")
         green = colour_count(page, canvas, palette["green"])

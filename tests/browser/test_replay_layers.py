@@ -163,18 +163,14 @@ def test_the_view_follows_is_moved_and_comes_back_by_keys(page):
     assert player.get_by_role("button", name="Follow the robot").get_attribute("aria-pressed") == "true"
     page.keyboard.press("End")
     painted(page)
-    middle = page.evaluate(
-        "(({view}) => [view.x(3.0), view.width / 2])(seen.get(document.querySelector('canvas')))"
-    )
+    middle = page.evaluate("(({view}) => [view.x(3.0), view.width / 2])(seen.get(document.querySelector('canvas')))")
     assert middle[0] == pytest.approx(middle[1], abs=2), "the robot is in the middle"
     page.keyboard.press("Shift+ArrowLeft")
     assert player.get_attribute("data-follow") == "false"
     page.keyboard.press("0")
     page.keyboard.press("Home")
     painted(page)
-    assert "The view shows everything" not in player.locator("[role=status]").inner_text(), (
-        "the last deed is said"
-    )
+    assert "The view shows everything" not in player.locator("[role=status]").inner_text(), "the last deed is said"
     back = colour(page, 3.0, 0.0), page.evaluate("seen.get(document.querySelector('canvas')).view.x(0)")
     assert back == everything
 

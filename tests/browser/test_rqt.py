@@ -14,14 +14,7 @@ from rosmini.msgs.std_msgs.msg import String
 from rosmini.msgs.std_srvs.srv import SetBool
 from rosmini.viz.embed import STATIC
 from rosmini.viz.live.panel_link import SCRIPTS, PanelLink
-from rosmini.viz.rqt import (
-    DynamicReconfigure,
-    LogConsole,
-    LoggerLevel,
-    MessagePublisher,
-    NodeGraph,
-    ServiceCaller,
-)
+from rosmini.viz.rqt import DynamicReconfigure, LogConsole, LoggerLevel, MessagePublisher, NodeGraph, ServiceCaller
 
 pytestmark = pytest.mark.browser
 
@@ -44,9 +37,7 @@ class Opened:
     def __init__(self, page, panel) -> None:
         self.page, self.panel, self.graph = page, panel, panel.graph
         self.wall = 100.0
-        self.graph.live = lambda: setattr(
-            self.graph, "_live", SimpleNamespace(running=True, stop=lambda: None)
-        )
+        self.graph.live = lambda: setattr(self.graph, "_live", SimpleNamespace(running=True, stop=lambda: None))
         self.link = PanelLink(panel, clock=lambda: self.wall)
         self.sent: list = []
         self.link.widget.send = lambda content, buffers=None: self.sent.append(content)
@@ -197,9 +188,7 @@ def test_a_level_is_chosen_and_each_control_has_a_name(show, graph, theme, share
 
 def test_a_slider_is_moved_with_keys(show, graph):
     gain = ReconfigurableParameter("gain", "double", 0, "how strong", 0.5, 0.0, 2.0)
-    server = Server(
-        graph.node("robot"), Description(ParameterGroup("Default", parameters=(gain,))), lambda c, _: c
-    )
+    server = Server(graph.node("robot"), Description(ParameterGroup("Default", parameters=(gain,))), lambda c, _: c)
     opened = show(DynamicReconfigure(graph, "/robot"))
     slider = opened.page.get_by_role("slider", name="gain (slider)")
     slider.focus()

@@ -202,9 +202,7 @@ def test_in_three_dimensions_the_mouse_turns_the_scene_or_uses_the_tool(use, win
         hand.until(
             lambda: np.allclose(
                 page.evaluate(camera),
-                view.viewpoint(window.scene.context).target
-                + window._projection.eye
-                - window._projection.target,
+                view.viewpoint(window.scene.context).target + window._projection.eye - window._projection.target,
                 atol=0.02,
             )
         )

@@ -106,9 +106,7 @@ def terminals(tmp_path_factory):
         run(*ROSMINI, "roslaunch", folder / "pages.launch")
         run(sys.executable, "-c", PAGES)
         address = r"http://127\.0\.0\.1:\d+/[\w-]{20,}/"
-        yield SimpleNamespace(
-            said=said, url=lambda name: said(rf"(?m)^{name}: .*{address}").rpartition(" ")[2]
-        )
+        yield SimpleNamespace(said=said, url=lambda name: said(rf"(?m)^{name}: .*{address}").rpartition(" ")[2])
 
 
 @pytest.fixture

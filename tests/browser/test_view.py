@@ -261,9 +261,7 @@ def test_a_finger_drags_too(show, simulator):
         ("touchMove", [(x - 50, y)]),
         ("touchEnd", []),
     ):
-        session.send(
-            "Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": a, "y": b} for a, b in points]}
-        )
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": a, "y": b} for a, b in points]})
     viewed.pump()
     assert simulator.truth("second") == pytest.approx((1.0 - 50 / scale, -1.0, 0.0), abs=0.03)
 
@@ -326,6 +324,5 @@ def test_it_is_dark_on_dark_pages(show, stage, shared_tmp):
     viewed = show(stage.view(), theme="dark")
     viewed.page.screenshot(path=shared_tmp / "view_dark.png")
     assert (
-        viewed.page.locator(".rosmini-view").evaluate("(e) => getComputedStyle(e).backgroundColor")
-        == "rgb(20, 24, 30)"
+        viewed.page.locator(".rosmini-view").evaluate("(e) => getComputedStyle(e).backgroundColor") == "rgb(20, 24, 30)"
     )

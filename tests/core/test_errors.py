@@ -55,9 +55,7 @@ def test_definition_error_shows_where() -> None:
 
 
 def test_a_missing_parameter_reads_as_a_sentence() -> None:
-    assert (
-        str(ParameterNotSet("parameter [/a] is not set:\ntry this")) == "parameter [/a] is not set:\ntry this"
-    )
+    assert str(ParameterNotSet("parameter [/a] is not set:\ntry this")) == "parameter [/a] is not set:\ntry this"
 
 
 def test_time_moved_backwards_keeps_the_amount() -> None:

@@ -32,14 +32,7 @@ def test_a_tree_knows_tags_attributes_texts_and_lines():
     b = root.all("link")[1]
     assert b.need("mass").number("value") == 1.5
     assert b.need("origin").numbers("xyz", 3) == (0.0, 1.0, -0.2)
-    assert [element.tag for element in root.walk()] == [
-        "robot",
-        "link",
-        "link",
-        "mass",
-        "origin",
-        "xacro:thing",
-    ]
+    assert [element.tag for element in root.walk()] == ["robot", "link", "link", "mass", "origin", "xacro:thing"]
     assert repr(b) == "<link> at r.urdf:5"
 
 
@@ -142,8 +135,7 @@ def test_a_text_that_says_another_encoding_is_read_as_the_text_it_is():
 
 
 words = st.text(
-    st.characters(codec="utf-8", exclude_categories=["Cc", "Cs"], exclude_characters="\ufffe\uffff"),
-    max_size=8,
+    st.characters(codec="utf-8", exclude_categories=["Cc", "Cs"], exclude_characters="\ufffe\uffff"), max_size=8
 )
 names = st.from_regex(r"[a-z_][a-z0-9_:.-]{0,6}", fullmatch=True)
 elements = st.recursive(

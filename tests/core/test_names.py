@@ -6,15 +6,7 @@ from hypothesis import strategies as st
 
 from rosmini.core import names
 from rosmini.core.errors import IllegalName, ROSInitException
-from rosmini.core.names import (
-    AnonymousNames,
-    Remappings,
-    canonicalize,
-    join,
-    namespace,
-    resolve,
-    split_resource_name,
-)
+from rosmini.core.names import AnonymousNames, Remappings, canonicalize, join, namespace, resolve, split_resource_name
 
 
 @pytest.mark.parametrize(

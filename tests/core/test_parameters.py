@@ -192,9 +192,7 @@ def move_base():
 def test_a_parameter_file_of_the_real_move_base(move_base):
     settings = MoveBase.read(move_base)
     costmap = settings.global_costmap
-    assert settings.recovery_behaviors == (
-        Layer("careful_reset", "clear_costmap_recovery/ClearCostmapRecovery"),
-    )
+    assert settings.recovery_behaviors == (Layer("careful_reset", "clear_costmap_recovery/ClearCostmapRecovery"),)
     assert costmap.footprint == ((-0.2, -0.15), (-0.2, 0.15), (0.2, 0.15), (0.2, -0.15))
     assert [layer.name for layer in costmap.plugins] == ["static_layer", "scans", "inflation_layer"]
     assert costmap.inflation_layer == Inflation(inflation_radius=0.9, cost_scaling_factor=3.0)
@@ -204,9 +202,7 @@ def test_a_parameter_file_of_the_real_move_base(move_base):
     assert layer == costmap.inflation_layer
 
 
-@pytest.mark.parametrize(
-    ("given", "read"), [(2.49, 2), (2.5, 3), (7.0, 7), (-1.2, -2), (-1.7, -2), (1e9, 10**9)]
-)
+@pytest.mark.parametrize(("given", "read"), [(2.49, 2), (2.5, 3), (7.0, 7), (-1.2, -2), (-1.7, -2), (1e9, 10**9)])
 def test_floats_are_rounded_to_ints_as_roscpp_does(node, given, read):
     @dataclass(frozen=True)
     class Whole(Parameters):
@@ -251,11 +247,7 @@ def test_only_dynamic_fields_are_limited(node):
         ("footprint", [[1, "a"]], r"global_costmap/footprint\[0\]\[1\] is the str 'a', and a float"),
         ("footprint", 0.2, r"a str or list of list of float is needed"),
         ("plugins", [{"nmae": "x"}], r"plugins\[0\]/nmae.* did you mean ~global_costmap/plugins\[0\]/name\?"),
-        (
-            "plugins",
-            ["static"],
-            r"plugins\[0\] is the str 'static', and a dictionary of name, type is needed",
-        ),
+        ("plugins", ["static"], r"plugins\[0\] is the str 'static', and a dictionary of name, type is needed"),
         ("plugins", {"name": "x"}, r"list of dictionary of name, type"),
     ],
 )
@@ -277,9 +269,7 @@ def test_choices_and_ranges_hold_for_each_element(node):
 
 def test_a_namespace_that_is_none(node):
     node.set_param("~", {"inner": 3})
-    with pytest.raises(
-        ParameterError, match=r"/worker/inner is the int 3, and ~inner/ is a namespace .*name, type"
-    ):
+    with pytest.raises(ParameterError, match=r"/worker/inner is the int 3, and ~inner/ is a namespace .*name, type"):
         Layer.read(node, "~inner")
 
 
@@ -287,13 +277,7 @@ def test_the_table_of_namespaces_and_lists():
     rows = {row[0]: row[1:] for row in Costmap.table()}
     assert rows["~plugins"] == ("list of dictionary of name, type", "[]", "", "", "its layers")
     assert rows["~footprint"][0] == "str or list of list of float"
-    assert rows["~inflation_layer/inflation_radius"] == (
-        "float",
-        "0.55",
-        "0.0 ... 50.0",
-        "m",
-        "how far costs reach",
-    )
+    assert rows["~inflation_layer/inflation_radius"] == ("float", "0.55", "0.0 ... 50.0", "m", "how far costs reach")
     assert {row[0]: row for row in Amcl.table()}["~initial_cov"][2] == "[0.25, 0.25]"
 
 

@@ -59,11 +59,7 @@ def test_both_spellings_find_it(name):
 
 
 def test_each_interface_has_its_own():
-    assert Planner.names() == [
-        "carrot_planner/CarrotPlanner",
-        "global_planner/GlobalPlanner",
-        "navfn/NavfnROS",
-    ]
+    assert Planner.names() == ["carrot_planner/CarrotPlanner", "global_planner/GlobalPlanner", "navfn/NavfnROS"]
     assert Grid.names() == ["global_planner/GlobalPlanner", "navfn/NavfnROS"]
     assert Layer.names() == ["costmap_2d/InflationLayer"]
     with pytest.raises(PluginError, match="there is no Layer 'navfn/NavfnROS'"):
@@ -118,9 +114,7 @@ def test_a_name_is_package_and_class(name):
 
 def test_other_distributions_bring_theirs(monkeypatch, tmp_path):
     (tmp_path / "their_planner.py").write_text(
-        "from tests.test_plugins import Planner\n"
-        "class Theirs(Planner, plugin='their_pkg/TheirPlanner'):\n"
-        "    pass\n",
+        "from tests.test_plugins import Planner\nclass Theirs(Planner, plugin='their_pkg/TheirPlanner'):\n    pass\n",
         encoding="utf-8",
     )
     (tmp_path / "broken_planner.py").write_text("import no_such_module\n", encoding="utf-8")
@@ -135,9 +129,7 @@ def test_other_distributions_bring_theirs(monkeypatch, tmp_path):
     monkeypatch.setattr(plugins, "entry_points", lambda group: found if group == "rosmini.plugins" else [])
     assert type(Planner.create("their_pkg::TheirPlanner", "x")).__name__ == "Theirs"
     assert "their_pkg/TheirPlanner" in Planner.names()  # although another cannot be loaded
-    with pytest.raises(
-        PluginError, match=r"broken/Planner \(broken_planner:X\) cannot be loaded: .*no_such_module"
-    ):
+    with pytest.raises(PluginError, match=r"broken/Planner \(broken_planner:X\) cannot be loaded: .*no_such_module"):
         Planner.create("broken/Planner")
     del Planner._plugins["their_pkg/TheirPlanner"]
 
@@ -177,7 +169,5 @@ def test_the_type_of_what_is_created_is_the_interface(tmp_path):
     )
     tool("mypy")
     done = run([sys.executable, "-m", "mypy", "--strict", str(script)])
-    revealed = [
-        line.rpartition('"')[0].rpartition('"')[2] for line in done.stdout.splitlines() if "note" in line
-    ]
+    revealed = [line.rpartition('"')[0].rpartition('"')[2] for line in done.stdout.splitlines() if "note" in line]
     assert revealed == ["typed.Planner", "type[typed.Planner]"], done.stdout

@@ -36,12 +36,7 @@ def test_fields_are_mutable_and_canon_repairs_them() -> None:
 
 
 def test_time_is_never_negative() -> None:
-    for make in (
-        lambda: Time(-1),
-        lambda: Time(0, -1),
-        lambda: Time(1) - Duration(2),
-        lambda: Time.from_sec(-0.1),
-    ):
+    for make in (lambda: Time(-1), lambda: Time(0, -1), lambda: Time(1) - Duration(2), lambda: Time.from_sec(-0.1)):
         with pytest.raises(TypeError, match="time values must be positive"):
             make()
 

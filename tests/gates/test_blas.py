@@ -41,9 +41,7 @@ def depends_on_processor(node: ast.AST) -> bool:
         case ast.Call(ast.Attribute(_, name)) | ast.Attribute(ast.Name("np" | "numpy"), name):
             return name in NAMES
         case ast.ImportFrom(module, names):
-            return module == "numpy.linalg" or (
-                module == "numpy" and any(each.name in NAMES for each in names)
-            )
+            return module == "numpy.linalg" or (module == "numpy" and any(each.name in NAMES for each in names))
     return False
 
 
@@ -51,9 +49,7 @@ def findings(text: str) -> list[int]:
     """The lines that depend on the processor and give no reason."""
     tree, lines = ast.parse(text), text.splitlines()
     errors = {
-        id(node.value)
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Attribute) and node.attr == "LinAlgError"
+        id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Attribute) and node.attr == "LinAlgError"
     }
     found = {
         node.lineno

@@ -77,12 +77,7 @@ def _one_chunk(infos: int) -> bytes:
         {"compression": b"bz2", "op": bytes([OP_CHUNK]), "size": u32.pack(_SIZE)}, bz2.compress(bytes(_SIZE))
     )
     start = len(MAGIC) + len(bag_header(0, 0, 0))
-    fields = {
-        "chunk_pos": u64.pack(start),
-        "count": u32.pack(0),
-        "op": bytes([OP_CHUNK_INFO]),
-        "ver": u32.pack(1),
-    }
+    fields = {"chunk_pos": u64.pack(start), "count": u32.pack(0), "op": bytes([OP_CHUNK_INFO]), "ver": u32.pack(1)}
     info = pack_record({**fields, "start_time": bytes(8), "end_time": bytes(8)})
     return MAGIC + bag_header(start + len(chunk), 0, infos) + chunk + info * infos
 
@@ -95,12 +90,7 @@ def _chunks(n: int) -> bytes:
     fields = {"count": u32.pack(0), "op": bytes([OP_CHUNK_INFO]), "ver": u32.pack(1)}
     infos = [
         pack_record(
-            {
-                **fields,
-                "chunk_pos": u64.pack(start + i * len(chunk)),
-                "start_time": bytes(8),
-                "end_time": bytes(8),
-            }
+            {**fields, "chunk_pos": u64.pack(start + i * len(chunk)), "start_time": bytes(8), "end_time": bytes(8)}
         )
         for i in range(n)
     ]
@@ -205,9 +195,7 @@ FAMILIES = {
         "a.txt", lambda n: f"dict([(i * {PRIME}, 1) for i in range({n})])", 5_000, refused=True
     ),
     "names on many lines": Family("a.txt", lambda n: f"[{'1,' * n}{chr(10) * n}]", 3000),
-    "large factorials": Family(
-        "a.txt", lambda n: f"[factorial(500) for i in range({n})]", 40_000, refused=True
-    ),
+    "large factorials": Family("a.txt", lambda n: f"[factorial(500) for i in range({n})]", 40_000, refused=True),
     "a search from the right": Family(
         "a.txt", lambda n: f"('a' * {n}).rfind('a' * {n // 4} + 'b' + 'a' * {n // 4})", 400_000, refused=True
     ),
@@ -231,9 +219,7 @@ FAMILIES = {
         60_000,
         refused=True,
     ),
-    "dollar signs in xacro": Family(
-        "a.xacro", lambda n: _xacro(f'<link name="{"$" * n}"/>'), 200_000, refused=True
-    ),
+    "dollar signs in xacro": Family("a.xacro", lambda n: _xacro(f'<link name="{"$" * n}"/>'), 200_000, refused=True),
     # bags
     "chunk infos that name one chunk": Family("a.bag", _one_chunk, 200, refused=True),
     "a chunk that claims a gigabyte": Family(
@@ -249,18 +235,13 @@ FAMILIES = {
     "unknown elements": Family("a.launch", lambda n: _launch("<a/>" * n), 2000),
     "unknown attributes": Family("a.launch", lambda n: _launch('<param name="a" value="1" b=""/>' * n), 500),
     "arguments and $(eval)": Family(
-        "a.launch",
-        lambda n: _launch(_each('<arg name="a#" default="1"/><param name="b" value="$(eval 1)"/>', n)),
-        200,
+        "a.launch", lambda n: _launch(_each('<arg name="a#" default="1"/><param name="b" value="$(eval 1)"/>', n)), 200
     ),
     "arguments that are missing": Family(
         "a.launch", lambda n: _launch(_each('<param name="b" value="$(arg b#)"/>', n)), 2000, refused=True
     ),
     "remappings and nodes": Family(
-        "a.launch",
-        lambda n: _launch(_each('<remap from="a#" to="b"/>', n), _each(TALKER, n)),
-        500,
-        refused=True,
+        "a.launch", lambda n: _launch(_each('<remap from="a#" to="b"/>', n), _each(TALKER, n)), 500, refused=True
     ),
     "loops in $(eval)": Family(
         "a.launch",
@@ -271,18 +252,11 @@ FAMILIES = {
     # messages and packages
     "messages of messages": Family("a.msg", _levels, 8),
     "long values read again": Family(
-        "CMakeLists.txt",
-        lambda n: _cmake(f'set(A "{"x;" * n}")\n' + "message(${A})\n" * n),
-        1000,
-        refused=True,
+        "CMakeLists.txt", lambda n: _cmake(f'set(A "{"x;" * n}")\n' + "message(${A})\n" * n), 1000, refused=True
     ),
-    "lists that grow": Family(
-        "CMakeLists.txt", lambda n: _cmake("list(APPEND A aaaaaaaa)\n" * n), 2000, refused=True
-    ),
+    "lists that grow": Family("CMakeLists.txt", lambda n: _cmake("list(APPEND A aaaaaaaa)\n" * n), 2000, refused=True),
     # robots, meshes and worlds
-    "references to missing links": Family(
-        "a.urdf", lambda n: _robot(_each('<gazebo reference="b#"/>', n)), 1000
-    ),
+    "references to missing links": Family("a.urdf", lambda n: _robot(_each('<gazebo reference="b#"/>', n)), 1000),
     "joints that mimic one another": Family(
         "a.urdf",
         lambda n: _robot(
@@ -298,10 +272,7 @@ FAMILIES = {
     "a mesh that is shown many times": Family("a.dae", lambda n: _collada(n, 1, n), 1000),
     "properties that nobody knows": Family("a.world", lambda n: f"model ( {_each('a# 1 ', n)} )", 800),
     "definitions of many words": Family(
-        "a.world",
-        lambda n: f"define a model ( {'size [1 1 1] ' * n})\n{'a()' * n}",
-        1500,
-        refused=True,
+        "a.world", lambda n: f"define a model ( {'size [1 1 1] ' * n})\n{'a()' * n}", 1500, refused=True
     ),
     "a mesh at many places": Family("a.world", _meshes, 100, beside=_sphere),
     "a picture that is used many times": Family(
@@ -319,9 +290,7 @@ FAMILIES = {
     ),
     "a map of many spots": Family(
         "m.yaml",
-        lambda _: (
-            "image: m.png\nresolution: 1\norigin: [0, 0, 0]\nnegate: 0\nfree_thresh: 0.1\noccupied_thresh: 0.9"
-        ),
+        lambda _: "image: m.png\nresolution: 1\norigin: [0, 0, 0]\nnegate: 0\nfree_thresh: 0.1\noccupied_thresh: 0.9",
         4,
         refused=True,
         beside=_dots(1000),
@@ -335,8 +304,7 @@ FAMILIES = {
     "chains of frames": Family(
         "a.world",
         lambda n: _world(
-            "".join(f'<frame name="f{i}" attached_to="f{i + 1}"/>' for i in range(n))
-            + '<frame name="f1000"/>'
+            "".join(f'<frame name="f{i}" attached_to="f{i + 1}"/>' for i in range(n)) + '<frame name="f1000"/>'
         ),
         1000,
         refused=True,

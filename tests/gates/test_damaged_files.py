@@ -141,9 +141,7 @@ def _read_launch(path: Path) -> None:
 def _read_rviz(path: Path) -> None:
     config = Config.read(path)
     config.unknown_classes()
-    config.with_parts(
-        config.mappings("Displays"), config.options(), config.mapping("Views", "Current")
-    ).text()
+    config.with_parts(config.mappings("Displays"), config.options(), config.mapping("Views", "Current")).text()
 
 
 def _read_plugins(path: Path) -> None:
@@ -152,9 +150,7 @@ def _read_plugins(path: Path) -> None:
     list(plugin_files._declared(PackageIndex([path.parent]).find("a")))
 
 
-STL = (
-    b"solid a\nfacet normal 0 0 1\nouter loop\n" + b"vertex 1 2 3\n" * 3 + b"endloop\nendfacet\nendsolid a\n"
-)
+STL = b"solid a\nfacet normal 0 0 1\nouter loop\n" + b"vertex 1 2 3\n" * 3 + b"endloop\nendfacet\nendsolid a\n"
 OBJ = b"o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\ng b\nf -1 -2 -3\n"
 DAE = b"""<COLLADA><asset><unit meter="0.01"/></asset><library_geometries><geometry id="g"><mesh>
 <source id="p"><float_array count="12">0 0 0 100 0 0 100 100 0 0 100 0</float_array><technique_common>
@@ -363,9 +359,7 @@ def test_a_damaged_file_is_read_or_refused(kind, rounds, tmp_path, monkeypatch):
                 if i < len(sound) or len(str(error)) > LONGEST:
                     raise
             except Exception as error:
-                raise AssertionError(
-                    f"{type(error).__name__} in round {i} of {kind}: {data[:5000]!r}"
-                ) from error
+                raise AssertionError(f"{type(error).__name__} in round {i} of {kind}: {data[:5000]!r}") from error
         assert tracemalloc.get_traced_memory()[1] < LARGEST
     finally:
         tracemalloc.stop()

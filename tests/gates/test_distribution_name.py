@@ -31,14 +31,9 @@ def test_no_text_of_ours_installs_another_project():
     found = []
     for folder in ("rosmini", "book", "notebooks", "assets", ".github"):
         for path in sorted((ROOT / folder).rglob("*")):
-            if (
-                path.suffix in {".py", ".md", ".ipynb", ".js", ".yml", ".xml", ".html"}
-                and "_build" not in path.parts
-            ):
+            if path.suffix in {".py", ".md", ".ipynb", ".js", ".yml", ".xml", ".html"} and "_build" not in path.parts:
                 text = path.read_text(encoding="utf-8")
-                found += [
-                    f"{path.relative_to(ROOT)}: {each}" for each in INSTALLS_ANOTHER_PROJECT.findall(text)
-                ]
+                found += [f"{path.relative_to(ROOT)}: {each}" for each in INSTALLS_ANOTHER_PROJECT.findall(text)]
     for path in (*ROOT.glob("*.md"), ROOT / "CITATION.cff"):
         if INSTALLS_ANOTHER_PROJECT.search(path.read_text(encoding="utf-8")):
             found.append(path.name)

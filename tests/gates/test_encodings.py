@@ -63,18 +63,14 @@ def findings(text: str) -> list[int]:
     tree = ast.parse(text)
     statements = [node.value for node in ast.walk(tree) if isinstance(node, ast.Expr)]
     # What `open` returns and nobody takes is no file.
-    others = {
-        each for each in statements if isinstance(each, ast.Call) and ast.unparse(each.func).endswith(".open")
-    }
+    others = {each for each in statements if isinstance(each, ast.Call) and ast.unparse(each.func).endswith(".open")}
     calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and node not in others]
     return [call.lineno for call in calls if needs_encoding(call)]
 
 
 def test_every_text_file_has_its_encoding():
     found = [
-        f"{path.relative_to(ROOT)}:{line}"
-        for path in sources()
-        for line in findings(path.read_text(encoding="utf-8"))
+        f"{path.relative_to(ROOT)}:{line}" for path in sources() for line in findings(path.read_text(encoding="utf-8"))
     ]
     assert found == [], "say encoding='utf-8'"
 

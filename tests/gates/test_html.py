@@ -49,10 +49,7 @@ def test_the_page_of_contents_introduces_the_parts_and_pages_in_their_order(root
     toc = yaml.safe_load((root / "book" / "_toc.yml").read_text(encoding="utf-8"))
     text = (root / "book" / "contents.md").read_text(encoding="utf-8")
     assert re.findall(r"^## (.+)$", text, re.MULTILINE) == [part["caption"] for part in toc["parts"]]
-    linked = [
-        f"book/{name}" if name[0] != "/" else name[1:]
-        for name in re.findall(r"\{doc\}`[^<`]+<([^>`]+)>`", text)
-    ]
+    linked = [f"book/{name}" if name[0] != "/" else name[1:] for name in re.findall(r"\{doc\}`[^<`]+<([^>`]+)>`", text)]
     listed = [page for page in toc_pages(root)[1:] if page != "book/contents"]
     assert sorted(linked) == sorted(listed)
     chapters = [page for page in listed if page.startswith("notebooks/")]
@@ -63,10 +60,7 @@ def test_the_cover_leads_to_the_first_steps_and_is_light(book_html, root):
     text = (book_html / "book" / "intro.html").read_text(encoding="utf-8")
     assert re.search(r'class="right-next"\s+href="\.\./notebooks/1_start/10_first_steps\.html"', text)
     scripts = set(re.findall(r"rosmini-[a-z-]+\.js", text))
-    own = [STATIC / name for name in scripts] + [
-        STATIC / "rosmini.css",
-        root / "book" / "static" / "book.css",
-    ]
+    own = [STATIC / name for name in scripts] + [STATIC / "rosmini.css", root / "book" / "static" / "book.css"]
     assert "rosmini-pad.js" in scripts
     assert MESHCAT not in text
     assert len(text) + sum(path.stat().st_size for path in own) < 400_000
@@ -91,29 +85,16 @@ def test_nothing_in_the_pages_comes_from_elsewhere(book_html):
 def test_no_page_has_the_scripts_that_jupyter_book_loads_from_the_network(book_html):
     for path in book_html.rglob("*.html"):
         text = path.read_text(encoding="utf-8")
-        for unwanted in (
-            "MathJax",
-            "mathjax@",
-            "require.min.js",
-            "require.js",
-            "THEBE_JS_URL",
-            "html-manager",
-        ):
+        for unwanted in ("MathJax", "mathjax@", "require.min.js", "require.js", "THEBE_JS_URL", "html-manager"):
             assert unwanted not in text, f"{path}: {unwanted}"
 
 
 @pytest.mark.parametrize(
     ("html", "problem"),
     [
-        (
-            '<script src="https://cdn.example/x.js"></script>',
-            "script src from elsewhere: https://cdn.example/x.js",
-        ),
+        ('<script src="https://cdn.example/x.js"></script>', "script src from elsewhere: https://cdn.example/x.js"),
         ('<script src="//cdn.example/x.js"></script>', "script src from elsewhere: //cdn.example/x.js"),
-        (
-            '<script>import("https://cdn.example/x.mjs")</script>',
-            "a script from elsewhere: https://cdn.example/x.mjs",
-        ),
+        ('<script>import("https://cdn.example/x.mjs")</script>', "a script from elsewhere: https://cdn.example/x.mjs"),
         (
             '<link rel="stylesheet" href="http://cdn.example/x.css">',
             "link href from elsewhere: http://cdn.example/x.css",
@@ -123,19 +104,13 @@ def test_no_page_has_the_scripts_that_jupyter_book_loads_from_the_network(book_h
             "a style from elsewhere: https://fonts.example/a.woff2",
         ),
         ("<style>@import '//fonts.example/a.css';</style>", "a style from elsewhere: //fonts.example/a.css"),
-        (
-            '<img alt="a map" src="https://example.org/a.png">',
-            "img src from elsewhere: https://example.org/a.png",
-        ),
+        ('<img alt="a map" src="https://example.org/a.png">', "img src from elsewhere: https://example.org/a.png"),
         (
             '<iframe title="t" src="http://127.0.0.1:7000/"></iframe>',
             "iframe src from elsewhere: http://127.0.0.1:7000/",
         ),
         ('<iframe title="t" src="http://127.0.0.1:7000/"></iframe>', "a local address in iframe src"),
-        (
-            "<p>open http://127.0.0.1:7000 now</p>",
-            "a local address in the text: open http://127.0.0.1:7000 now",
-        ),
+        ("<p>open http://127.0.0.1:7000 now</p>", "a local address in the text: open http://127.0.0.1:7000 now"),
         ('<img src="a.png">', "an image without a text: a.png"),
         ('<img src="a.png" alt=" ">', "an image without a text: a.png"),
         ("<svg class='graph'><path d='M0 0'/></svg>", "a drawing without a text: svg graph"),
@@ -192,9 +167,7 @@ def test_what_a_page_loads_has_to_be_there(tmp_path):
         "a.html: loads meshcat.min.js, which is not in _static",
         "a.html: loads rosmini-meshcat.js, which is not in _static",
     ]
-    (tmp_path / "_static" / "rosmini-meshcat.js").write_text(
-        "fetch('https://example.org/a')", encoding="utf-8"
-    )
+    (tmp_path / "_static" / "rosmini-meshcat.js").write_text("fetch('https://example.org/a')", encoding="utf-8")
     (tmp_path / "_static" / MESHCAT).write_text("", encoding="utf-8")
     assert list(site_problems(tmp_path)) == [
         "_static/rosmini-meshcat.js: names https://example.org/a",

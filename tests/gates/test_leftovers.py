@@ -35,9 +35,7 @@ def leave_a_handler(patch, folder):
 
 def leave_a_module(patch, folder):
     (folder / "left.py").write_text("", encoding="utf-8")
-    module = importlib.util.module_from_spec(
-        importlib.util.spec_from_file_location("left", folder / "left.py")
-    )
+    module = importlib.util.module_from_spec(importlib.util.spec_from_file_location("left", folder / "left.py"))
     patch.setitem(sys.modules, "left", module)
 
 
@@ -53,11 +51,7 @@ def leave_a_module(patch, folder):
     ],
 )
 def test_what_is_left_is_said(leave, said, tmp_path):
-    with (
-        pytest.MonkeyPatch.context() as patch,
-        pytest.raises(AssertionError, match=said),
-        nothing_left(tmp_path),
-    ):
+    with pytest.MonkeyPatch.context() as patch, pytest.raises(AssertionError, match=said), nothing_left(tmp_path):
         leave(patch, tmp_path)
 
 
@@ -74,10 +68,7 @@ def test_a_node_in_the_default_graph_is_said(tmp_path):
     with rosmini.Graph() as graph:
         before = rosmini.set_default_graph(graph)
         try:
-            with (
-                pytest.raises(AssertionError, match=r"default graph: \[\] is now .*/left"),
-                nothing_left(tmp_path),
-            ):
+            with pytest.raises(AssertionError, match=r"default graph: \[\] is now .*/left"), nothing_left(tmp_path):
                 graph.node("left")
         finally:
             rosmini.set_default_graph(before)

@@ -23,17 +23,9 @@ def test_a_test_of_a_module_lies_at_its_depth():
     """`tests/sim/test_rasters.py` would be refused while the module is `rosmini/sim/worlds/rasters.py`."""
     astray = []
     for path in modules_of_tests():
-        name, folder = (
-            path.stem.removeprefix("test_"),
-            ROOT / "rosmini" / path.parent.relative_to(ROOT / "tests"),
-        )
+        name, folder = (path.stem.removeprefix("test_"), ROOT / "rosmini" / path.parent.relative_to(ROOT / "tests"))
         if (folder / f"{name}.py").is_file() or path.parent == ROOT / "tests":
             continue
-        deeper = [
-            *folder.glob(f"*/**/{name}.py"),
-            *(each for each in folder.glob(f"**/{name}") if each.is_dir()),
-        ]
-        astray += [
-            f"{path.relative_to(ROOT)} tests {found.relative_to(ROOT)}: move it there" for found in deeper
-        ]
+        deeper = [*folder.glob(f"*/**/{name}.py"), *(each for each in folder.glob(f"**/{name}") if each.is_dir())]
+        astray += [f"{path.relative_to(ROOT)} tests {found.relative_to(ROOT)}: move it there" for found in deeper]
     assert astray == []

@@ -29,8 +29,7 @@ def test_all_children_are_started_through_one_door():
         if NOT_TESTS.isdisjoint(path.parent.parents) and path != TESTS / "processes.py"
         if re.search(r"subprocess|os\.system", text := path.read_text(encoding="utf-8"))
         for node in ast.walk(ast.parse(text))
-        if isinstance(node, ast.Call)
-        and ast.unparse(node.func) in {"subprocess.run", "subprocess.Popen", "os.system"}
+        if isinstance(node, ast.Call) and ast.unparse(node.func) in {"subprocess.run", "subprocess.Popen", "os.system"}
     ]
     assert found == [], "start it with `run` or `start` of tests/processes.py"
 
@@ -82,8 +81,7 @@ def test_an_ignored_sigint_means_something_again(tmp_path):
         (tmp_path / name).write_bytes((TESTS / name).read_bytes())
     (tmp_path / "test_it.py").write_text(BACKGROUND, encoding="utf-8")
     code = (
-        "import signal, os, sys; signal.signal(signal.SIGINT, signal.SIG_IGN); "
-        "os.execv(sys.executable, sys.argv[1:])"
+        "import signal, os, sys; signal.signal(signal.SIGINT, signal.SIG_IGN); os.execv(sys.executable, sys.argv[1:])"
     )
     tests = ["-m", "pytest", "-q", "-n1", "-c", os.devnull, f"--rootdir={tmp_path}", tmp_path]
     done = run([sys.executable, "-c", code, sys.executable, *tests])

@@ -41,19 +41,11 @@ def test_the_rooms_hold(checkout):
 
 
 WRONG = (
-    (
-        "core/names.py",
-        "from rosmini.ros.rospy import client",
-        "rosmini.core.names -> rosmini.ros.rospy.client",
-    ),
+    ("core/names.py", "from rosmini.ros.rospy import client", "rosmini.core.names -> rosmini.ros.rospy.client"),
     ("core/graph/__init__.py", "def f():\n    import rosmini.viz", "rosmini.core.graph -> rosmini.viz"),
     ("core/graph/lanes.py", "from rosmini.core.graph import scheduler", ".lanes -> .scheduler"),
     ("msgs/__init__.py", "from rosmini.tools import main", "rosmini.msgs -> rosmini.tools.main"),
-    (
-        "sim/world.py",
-        "from rosmini.navigation.amcl import node",
-        "rosmini.sim.world -> rosmini.navigation.amcl.node",
-    ),
+    ("sim/world.py", "from rosmini.navigation.amcl import node", "rosmini.sim.world -> rosmini.navigation.amcl.node"),
     ("tools/rosnode.py", "import rosmini.viz.view", "rosmini.tools.rosnode -> rosmini.viz.view"),
 )
 
@@ -74,15 +66,4 @@ def test_nothing_else_lies_at_the_top():
         # an older checkout leaves folders that hold only compiled files
         if not path.name.startswith(("_", ".")) and (path.is_file() or any(path.rglob("*.py")))
     }
-    assert found == {
-        "book",
-        "core",
-        "msgs",
-        "navigation",
-        "notebook",
-        "py.typed",
-        "ros",
-        "sim",
-        "tools",
-        "viz",
-    }
+    assert found == {"book", "core", "msgs", "navigation", "notebook", "py.typed", "ros", "sim", "tools", "viz"}

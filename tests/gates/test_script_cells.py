@@ -36,14 +36,7 @@ def ruffs(folder: Path) -> str:
     tool("ruff")
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     ignored = settings["tool"]["ruff"]["lint"]["per-file-ignores"]["notebooks/**"]
-    words = [
-        "check",
-        "--no-cache",
-        "--config",
-        ROOT / "pyproject.toml",
-        "--extend-ignore",
-        ",".join([*ignored, "EXE"]),
-    ]
+    words = ["check", "--no-cache", "--config", ROOT / "pyproject.toml", "--extend-ignore", ",".join([*ignored, "EXE"])]
     return run([sys.executable, "-m", "ruff", *words, "--output-format", "concise", "."], cwd=folder).stdout
 
 

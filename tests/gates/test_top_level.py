@@ -19,7 +19,6 @@ def test_only_the_projects_own_files_lie_at_the_top():
     if not (ROOT / ".git").exists():
         pytest.skip("not a checkout of git: what a build puts beside the sources cannot be told from them")
     top = {
-        line.partition("/")[0]
-        for line in run(["git", "ls-files"], cwd=ROOT, text=True, check=True).stdout.splitlines()
+        line.partition("/")[0] for line in run(["git", "ls-files"], cwd=ROOT, text=True, check=True).stdout.splitlines()
     }
     assert {name for name in top if not name.startswith(".")} <= ALLOWED

@@ -111,9 +111,7 @@ def count(kind):
 client = actionlib.ActionClient("played", TestAction)
 goals = []
 sent_here = rospy.Subscriber("played/goal", TestActionGoal, goals.append)
-rospy.Subscriber(
-    "played/status", GoalStatusArray, count("status")
-)  # told after the client, in the same thread
+rospy.Subscriber("played/status", GoalStatusArray, count("status"))  # told after the client, in the same thread
 rospy.Subscriber("played/result", TestActionResult, count("result"))
 status_pub = rospy.Publisher("played/status", GoalStatusArray, queue_size=100)
 result_pub = rospy.Publisher("played/result", TestActionResult, queue_size=100)
@@ -154,9 +152,7 @@ WAYS = {
 def goal_in(state):
     """A goal in a state of the client's machine, its id, and the states that it comes through from there."""
     seen, before = [], len(goals)
-    handle = client.send_goal(
-        TestGoal(1), lambda gh: seen.append(actionlib.CommState.to_string(gh.get_comm_state()))
-    )
+    handle = client.send_goal(TestGoal(1), lambda gh: seen.append(actionlib.CommState.to_string(gh.get_comm_state())))
     wait(lambda: len(goals) > before, "the goal")
     name = goals[-1].goal_id.id
     for step in WAYS[state]:
@@ -178,9 +174,7 @@ for state in WAYS:
     for number, status in enumerate(STATUSES[:9]):
         handle, name, seen = goal_in(state)
         tell(name, number)
-        facts["client"][state + " hears " + status] = seen + [
-            actionlib.CommState.to_string(handle.get_comm_state())
-        ]
+        facts["client"][state + " hears " + status] = seen + [actionlib.CommState.to_string(handle.get_comm_state())]
         if number in (2, 3, 4, 5, 8) and state != "DONE":
             handle, name, seen = goal_in(state)
             finish(name, number)
@@ -332,8 +326,7 @@ facts["in order"] = all(a < b for a, b in itertools.pairwise(fed) if a // 10 == 
 statuses = rospy.wait_for_message("simple/status", GoalStatusArray, 200)
 facts["listed"] = sorted(STATUSES[status.status] for status in statuses.status_list)
 facts["id"] = [
-    part if index < 2 else len(part.split(".")[1])
-    for index, part in enumerate(goals[0].goal_id.id.split("-"))
+    part if index < 2 else len(part.split(".")[1]) for index, part in enumerate(goals[0].goal_id.id.split("-"))
 ]
 facts["feedback type"] = TestActionFeedback._md5sum
 print(json.dumps(facts, default=int))

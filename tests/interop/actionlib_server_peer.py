@@ -44,10 +44,7 @@ class Bench:
         wait(ear.get_num_connections, "its results")
         # A subscriber counts a connection before the publisher does, and what is published in between is lost.
         results = self.server.result_pub
-        wait(
-            getattr(results, "get_num_connections", None) or results.num_connections,
-            "a listener to its results",
-        )
+        wait(getattr(results, "get_num_connections", None) or results.num_connections, "a listener to its results")
 
     def count(self, message):
         self.heard += 1
@@ -165,30 +162,19 @@ facts["simple"].append(simple.current_goal.get_goal_status().status)
 
 first, second = GoalIDGenerator("who"), GoalIDGenerator()
 ids = [first.generate_ID(), first.generate_ID(), second.generate_ID()]
-facts["ids"] = [
-    [one.id.split("-")[0], one.id.split("-")[2] == f"{one.stamp.secs}.{one.stamp.nsecs}"] for one in ids
-]
+facts["ids"] = [[one.id.split("-")[0], one.id.split("-")[2] == f"{one.stamp.secs}.{one.stamp.nsecs}"] for one in ids]
 counts = [int(one.id.split("-")[1]) for one in ids]
 facts["counts"] = [count - counts[0] for count in counts]
 first.set_name("other")
 facts["renamed"] = first.generate_ID().id.split("-")[0]
 goal = TestActionGoal(goal_id=GoalID(rospy.Time(7), "x"))
-tracker, note = (
-    StatusTracker(None, None, goal),
-    StatusTracker(GoalID(rospy.Time(), "y"), GoalStatus.RECALLING),
-)
+tracker, note = (StatusTracker(None, None, goal), StatusTracker(GoalID(rospy.Time(), "y"), GoalStatus.RECALLING))
 facts["trackers"] = [
     [one.goal is None, plain(one.status.goal_id), one.status.status, one.handle_destruction_time.to_nsec()]
     for one in (tracker, note, StatusTracker(goal=TestActionGoal()))
 ]
 empty = ServerGoalHandle()
-facts["empty"] = [
-    empty.get_goal(),
-    empty.get_goal_id().id,
-    empty.get_goal_status().status,
-    empty.goal,
-    empty == empty,
-]
+facts["empty"] = [empty.get_goal(), empty.get_goal_id().id, empty.get_goal_status().status, empty.goal, empty == empty]
 empty.set_accepted()
 facts["empty does"] = empty.set_cancel_requested()
 own = ServerGoalHandle(tracker, bench.server, None)

@@ -106,9 +106,7 @@ facts["responses"] = [
     plain()._connection_header,
     rospy.ServiceProxy("camera", SetCameraInfo, headers={"cookie": "abc"})()._connection_header,
     rospy.ServiceProxy("camera", SetCameraInfo, persistent=True)()._connection_header,
-    rospy.ServiceProxy(
-        "camera", SetCameraInfo, True, {"cookie": "x", "callerid": "/me"}
-    )()._connection_header,
+    rospy.ServiceProxy("camera", SetCameraInfo, True, {"cookie": "x", "callerid": "/me"})()._connection_header,
 ]
 facts["requests"] = requests
 facts["refused"] = outcome(rospy.ServiceProxy("camera", SetCameraInfo, headers={"md5sum": "12"}))

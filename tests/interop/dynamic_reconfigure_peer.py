@@ -86,11 +86,7 @@ facts["description"] = [
         for group in descriptions[0].groups
     ],
     *[
-        [
-            [one.name, str(one.value)]
-            for field in ("bools", "ints", "strs", "doubles")
-            for one in getattr(part, field)
-        ]
+        [[one.name, str(one.value)] for field in ("bools", "ints", "strs", "doubles") for one in getattr(part, field)]
         for part in (descriptions[0].max, descriptions[0].min, descriptions[0].dflt)
     ],
 ]
@@ -108,9 +104,7 @@ facts["first update"] = told(updates[0])
 heard, described = [], []
 client = Client("peer", 10, heard.append, described.append)
 facts["configuration"] = values(client.get_configuration(10))
-facts["described"] = [
-    {key: str(one[key]) for key in sorted(one)} for one in client.get_parameter_descriptions(10)
-]
+facts["described"] = [{key: str(one[key]) for key in sorted(one)} for one in client.get_parameter_descriptions(10)]
 wait(lambda: described, "the description")
 facts["the callback's"] = [one["name"] for one in described[0]]
 facts["groups"] = [listed(client.get_group_descriptions(10)), states(client.get_group_descriptions(10))]
@@ -142,11 +136,7 @@ wait(lambda: heard and heard[-1]["group1_int"] == -3, "the client's callback")
 facts["heard"] = values(heard[-1])
 
 facts["errors"] = {}
-for name, changes in {
-    "unknown": {"nonsense": 1},
-    "no number": {"int_": "many"},
-    "refused": {"str_": "refuse"},
-}.items():
+for name, changes in {"unknown": {"nonsense": 1}, "no number": {"int_": "many"}, "refused": {"str_": "refuse"}}.items():
     try:
         client.update_configuration(changes)
     except DynamicReconfigureParameterException:
@@ -195,9 +185,7 @@ facts["callbacks"] = [
 client.set_config_callback(None)
 
 inner = Server(TestConfig, lambda config, level: config, "inner/part")
-facts["namespace"] = sorted(
-    topic for topic, _ in rospy.get_published_topics() if topic.startswith("/peer/inner")
-)
+facts["namespace"] = sorted(topic for topic, _ in rospy.get_published_topics() if topic.startswith("/peer/inner"))
 facts["namespace"].append(rospy.get_param("/peer/inner/part/str_"))
 other = Client("/peer/inner/part", timeout=200)
 facts["namespace"].append(other.update_configuration({"int_": 4})["int_"])

@@ -162,9 +162,7 @@ facts["by hand"] += [str(other), str(filled)]
 
 rospy.init_node("peer")
 heard = []
-rospy.Subscriber(
-    "points", Point2, lambda message: heard.append([message.x, message.y, type(message).__name__])
-)
+rospy.Subscriber("points", Point2, lambda message: heard.append([message.x, message.y, type(message).__name__]))
 publisher = rospy.Publisher("points", Point2, queue_size=5)
 while not publisher.get_num_connections():
     rospy.sleep(0.01)

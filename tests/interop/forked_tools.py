@@ -14,12 +14,7 @@ import os
 import signal
 import sys
 
-MAINS = {
-    "rosnode": "rosnodemain",
-    "rostopic": "rostopicmain",
-    "rosservice": "rosservicemain",
-    "rosparam": "yamlmain",
-}
+MAINS = {"rosnode": "rosnodemain", "rostopic": "rostopicmain", "rosservice": "rosservicemain", "rosparam": "yamlmain"}
 OURS = ["rosmini.tools.main", "rosmini.__main__", "rosmini.ros.net.online"]
 
 

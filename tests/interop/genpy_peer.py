@@ -45,11 +45,7 @@ def describe(thing):
 
 def answer(type_name, full_text, plain_messages):
     classes = genpy.dynamic.generate_dynamic(type_name, full_text)
-    installed = (
-        genpy.message.get_message_class(type_name)
-        if not type_name.endswith(("Request", "Response"))
-        else None
-    )
+    installed = genpy.message.get_message_class(type_name) if not type_name.endswith(("Request", "Response")) else None
     cls = classes[type_name]
     result = {
         "md5": cls._md5sum,
@@ -77,9 +73,7 @@ def answer(type_name, full_text, plain_messages):
                 "text": str(message),
                 "received": describe(received),
                 "received_text": str(received),
-                "received_numpy": describe(cls().deserialize_numpy(data, np))
-                if "bool[" not in full_text
-                else None,
+                "received_numpy": describe(cls().deserialize_numpy(data, np)) if "bool[" not in full_text else None,
             }
         )
     return result

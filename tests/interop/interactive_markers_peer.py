@@ -36,10 +36,7 @@ def updated(message):
                 marker.name,
                 marker.description,
                 marker.pose.position.x,
-                [
-                    [one.id, one.parent_id, one.title, one.command, one.command_type]
-                    for one in marker.menu_entries
-                ],
+                [[one.id, one.parent_id, one.title, one.command, one.command_type] for one in marker.menu_entries],
             ]
             for marker in message.markers
         )
@@ -100,9 +97,7 @@ def apply_menu(name, number):
 
 def feed_back(name, number):
     """The real one fails where nothing is to be called."""
-    feedback = InteractiveMarkerFeedback(
-        marker_name=name, pose=pose_at(number), menu_entry_id=lot.randrange(6)
-    )
+    feedback = InteractiveMarkerFeedback(marker_name=name, pose=pose_at(number), menu_entry_id=lot.randrange(6))
     feedback.event_type = lot.choice([1, 2, 3, 5])
     with contextlib.suppress(TypeError):
         server.processFeedback(feedback)
@@ -124,14 +119,7 @@ for number in range(1000):
         {
             "act": [number, act.__name__, name, answer],
             "now": [
-                one
-                and [
-                    one.name,
-                    one.description,
-                    one.pose.position.x,
-                    one.header.frame_id,
-                    len(one.menu_entries),
-                ]
+                one and [one.name, one.description, one.pose.position.x, one.header.frame_id, len(one.menu_entries)]
                 for one in now
             ],
             "told": [list(calls), list(updates), list(inits)],

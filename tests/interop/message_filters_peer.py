@@ -62,11 +62,7 @@ for _ in range(150):
     coarse = [(index, stamp // 40 * 40) for index, stamp in stamps]
     facts["exact"].append(story(lambda f, q=queue: message_filters.TimeSynchronizer(f, q), inputs, coarse))
     facts["approximate"].append(
-        story(
-            lambda f, q=queue, s=slop: message_filters.ApproximateTimeSynchronizer(f, q, s),
-            inputs,
-            stamps,
-        )
+        story(lambda f, q=queue, s=slop: message_filters.ApproximateTimeSynchronizer(f, q, s), inputs, stamps)
     )
 facts["sets"] = [sum(map(len, facts[kind])) - 150 * 60 for kind in ("exact", "approximate")]
 
@@ -103,9 +99,7 @@ for name, make in {
     filters = [message_filters.SimpleFilter(), message_filters.SimpleFilter()]
     synchroniser = make(filters)
     found = []
-    synchroniser.registerCallback(
-        lambda one, two, to=found: to.append([one.header.frame_id, two.header.frame_id])
-    )
+    synchroniser.registerCallback(lambda one, two, to=found: to.append([one.header.frame_id, two.header.frame_id]))
     for number, (now, index, stamp) in enumerate(
         [
             (5000, 0, 5000),
@@ -136,9 +130,7 @@ filters = [message_filters.SimpleFilter(), message_filters.SimpleFilter()]
 found = []
 for allow in (False, True):
     synchroniser = message_filters.ApproximateTimeSynchronizer(filters, 5, 0.1, allow_headerless=allow)
-    synchroniser.registerCallback(
-        lambda one, two, allow=allow: found.append([allow, one.data, two.header.seq])
-    )
+    synchroniser.registerCallback(lambda one, two, allow=allow: found.append([allow, one.data, two.header.seq]))
 filters[0].signalMessage(String("text"))
 filters[1].signalMessage(PointStamped(header=Header(stamp=rospy.Time(7, 50000000))))
 facts["headerless"] = found
@@ -149,11 +141,7 @@ facts["headerless"] = found
 def ids(answer):
     if answer is None:
         return None
-    return (
-        [int(one.header.frame_id) for one in answer]
-        if isinstance(answer, list)
-        else int(answer.header.frame_id)
-    )
+    return [int(one.header.frame_id) for one in answer] if isinstance(answer, list) else int(answer.header.frame_id)
 
 
 source = message_filters.SimpleFilter()
@@ -167,10 +155,7 @@ facts["empty cache"] = [
 ]  # fmt: skip
 for number, stamp in enumerate([100, 200, 300, 300, 500, 700]):
     source.signalMessage(stamped(stamp, number))
-facts["cache"] = {
-    "passed": passed,
-    "kept": [[time.to_nsec() for time in cache.cache_times], ids(cache.cache_msgs)],
-}
+facts["cache"] = {"passed": passed, "kept": [[time.to_nsec() for time in cache.cache_times], ids(cache.cache_msgs)]}
 for when in (50, 300, 400, 700, 900):
     time = stamped(when, 0).header.stamp
     facts["cache"][str(when)] = [

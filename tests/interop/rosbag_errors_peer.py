@@ -16,9 +16,7 @@ def attempt(function):
         answer = function()
     except Exception as error:
         return [
-            cls.__name__
-            for cls in type(error).__mro__
-            if cls.__name__ in BUILTIN or cls.__name__.startswith("ROSBag")
+            cls.__name__ for cls in type(error).__mro__ if cls.__name__ in BUILTIN or cls.__name__.startswith("ROSBag")
         ]
     return answer if isinstance(answer, (int, str, list)) else "fine"
 
@@ -36,8 +34,7 @@ def attempts(rosbag, String, Time, folder):
         (folder / f"v{version}.bag").write_bytes(data.replace(b"V2.0", f"V{version}".encode(), 1))
     (folder / "short.bag").write_bytes(data[:-10])
     (folder / "unindexed.bag").write_bytes(
-        data[:13]
-        + data[13:].replace(b"index_pos=" + data.split(b"index_pos=")[1][:8], b"index_pos=" + bytes(8), 1)
+        data[:13] + data[13:].replace(b"index_pos=" + data.split(b"index_pos=")[1][:8], b"index_pos=" + bytes(8), 1)
     )
     (folder / "header.bag").write_bytes(data[:13] + b"\xff" * 100 + data[113:])
     (folder / "lied.bag").write_bytes(data.replace(b"conn_count=\x01", b"conn_count=\x09"))
@@ -53,10 +50,7 @@ def attempts(rosbag, String, Time, folder):
     ]  # fmt: skip
     for name in names:
         yield f"open {name}", lambda name=name: opened(f"{name}.bag")
-        yield (
-            f"open {name} unindexed",
-            lambda name=name: opened(f"{name}.bag", allow_unindexed=name == "unindexed"),
-        )
+        yield (f"open {name} unindexed", lambda name=name: opened(f"{name}.bag", allow_unindexed=name == "unindexed"))
     for name in names:
         if name != "missing":
             yield f"append {name}", lambda name=name: opened(f"{name}.bag", "a")

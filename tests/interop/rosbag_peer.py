@@ -25,25 +25,15 @@ def write(path, compression):
     with rosbag.Bag(path, "w", compression=compression, chunk_threshold=20000) as bag:
         for i in range(200):
             t = genpy.Time(1000 + i, 1000 * i)
-            bag.write(
-                "/chatter",
-                String(f"hello {i}"),
-                t,
-                connection_header=header(String, "/chatter", "/talker", "0"),
-            )
+            bag.write("/chatter", String(f"hello {i}"), t, connection_header=header(String, "/chatter", "/talker", "0"))
             scan = LaserScan(ranges=[0.5 * i, float("inf")], range_max=3.5)
             scan.header.seq, scan.header.stamp, scan.header.frame_id = i, t, "laser"
             bag.write("/scan", scan, t)
         bag.write(
-            "/map",
-            String("world"),
-            genpy.Time(1000),
-            connection_header=header(String, "/map", "/map_server", "1"),
+            "/map", String("world"), genpy.Time(1000), connection_header=header(String, "/map", "/map_server", "1")
         )
         bag.write(
-            "/image",
-            Image(height=100, width=100, step=100, encoding="mono8", data=bytes(10000)),
-            genpy.Time(1001),
+            "/image", Image(height=100, width=100, step=100, encoding="mono8", data=bytes(10000)), genpy.Time(1001)
         )
 
 
@@ -51,15 +41,12 @@ def content(path):
     found = []
     with rosbag.Bag(path) as bag:
         for topic, raw, t, head in bag.read_messages(raw=True, return_connection_header=True):
-            fields = {
-                key: (value if isinstance(value, str) else value.decode()) for key, value in head.items()
-            }
+            fields = {key: (value if isinstance(value, str) else value.decode()) for key, value in head.items()}
             found.append([topic, t.to_nsec(), hashlib.md5(raw[1]).hexdigest(), fields])
         strings = [m.data for topic, m, t in bag.read_messages(["/chatter"])]
         info = bag.get_type_and_topic_info()
         topics = {
-            name: [one.msg_type, one.message_count, one.connections, one.frequency]
-            for name, one in info.topics.items()
+            name: [one.msg_type, one.message_count, one.connections, one.frequency] for name, one in info.topics.items()
         }
         summary = [
             bag.get_message_count(), bag.get_message_count(["/scan"]), bag.get_start_time(), bag.get_end_time(),

@@ -20,8 +20,7 @@ facts = {
     "online": rosgraph.is_master_online(),
 }  # fmt: skip
 facts["script names"] = [
-    rosgraph.names.script_resolve_name("tool", name)
-    for name in ("", None, "a", "/a", "~a", "~a/b", "a/b", "~")
+    rosgraph.names.script_resolve_name("tool", name) for name in ("", None, "a", "/a", "~a", "~a/b", "a/b", "~")
 ]
 names = roslib.names
 facts["resource names"] = [

@@ -53,9 +53,7 @@ def attempt(name, function):
         results[name] = function()
     except (rosparam.RosParamException, rosgraph.MasterException) as error:
         names = [
-            kind.__name__
-            for kind in (rosparam.RosParamException, rosgraph.MasterError)
-            if isinstance(error, kind)
+            kind.__name__ for kind in (rosparam.RosParamException, rosgraph.MasterError) if isinstance(error, kind)
         ]
         results[name] = [*names, str(error) if names == ["MasterError"] else ""]
 
@@ -96,12 +94,9 @@ attempt("outer", lambda: rosparam.get_param("/outer"))
 attempt("dump", lambda: dumped("/mine"))
 attempt("dump one", lambda: dumped("/mine/list"))
 attempt("dump printed", lambda: printed(rosparam.dump_params, None, "/mine/tree"))
+attempt("verbose upload", lambda: printed(rosparam.upload_params, "/v", {"a": 1, "b": {"c": "x"}}, verbose=True))
 attempt(
-    "verbose upload", lambda: printed(rosparam.upload_params, "/v", {"a": 1, "b": {"c": "x"}}, verbose=True)
-)
-attempt(
-    "verbose load",
-    lambda: printed(rosparam.load_str, "_ns: x\na: 1", "peer", default_namespace="/mine", verbose=True),
+    "verbose load", lambda: printed(rosparam.load_str, "_ns: x\na: 1", "peer", default_namespace="/mine", verbose=True)
 )
 attempt("print", lambda: printed(rosparam.print_params, {"a": [1], "b": {"c": "x"}, "d": {}}, "/p"))
 rosparam.set_param("/merge", "{a: 1, l: [1, 2, 3]}")
@@ -124,9 +119,7 @@ attempt("number as root", lambda: rosparam.upload_params("/", 5))
 attempt("keys", lambda: rosparam.set_param("/keys", "{1: one}"))
 attempt("angle", lambda: rosparam.load_str("a: deg(north)", "peer"))
 attempt("no file", lambda: rosparam.load_file("/no/such/file.yaml"))
-attempt(
-    "search", lambda: [rospy.search_param("merge"), rospy.has_param("/merge/c"), rospy.get_param("/merge/c")]
-)
+attempt("search", lambda: [rospy.search_param("merge"), rospy.has_param("/merge/c"), rospy.get_param("/merge/c")])
 attempt("constants", lambda: [rosparam.NAME, rosparam.NS])
 attempt("verbose root", lambda: printed(rosparam.delete_param, "/", verbose=True))
 attempt("nothing left", lambda: rosparam.list_params("/"))

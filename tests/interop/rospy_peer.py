@@ -254,11 +254,7 @@ got = {}
 for name, cls in (("scan", LaserScan), ("image", Image), ("floats", Float32MultiArray)):
     source = rospy.Publisher(name, cls, queue_size=1, latch=True)
     source.publish(
-        {
-            "scan": LaserScan(ranges=[1, 2]),
-            "image": Image(data=b"ab"),
-            "floats": Float32MultiArray(data=[1, 2]),
-        }[name]
+        {"scan": LaserScan(ranges=[1, 2]), "image": Image(data=b"ab"), "floats": Float32MultiArray(data=[1, 2])}[name]
     )
     for kind, wanted in (("plain", cls), ("numpy", numpy_msg(cls)), ("any", rospy.AnyMsg)):
         if not (name == "image" and kind == "numpy"):
@@ -325,9 +321,7 @@ rospy.Service(
     "good",
     SetCameraInfo,
     handle,
-    error_handler=lambda e, kind, value, trace: errors.append(
-        [str(e), kind.__name__, value is e, trace is not None]
-    ),
+    error_handler=lambda e, kind, value, trace: errors.append([str(e), kind.__name__, value is e, trace is not None]),
 )
 rospy.Service("refuses", SetCameraInfo, refuse)
 rospy.Service("none", SetCameraInfo, lambda _: None)

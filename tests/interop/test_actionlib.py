@@ -42,10 +42,7 @@ SERVER_PEER = Path(__file__).with_name("actionlib_server_peer.py")
 
 @pytest.mark.ros
 @pytest.mark.parametrize("simulated", [True, False], ids=["simulated", "wall"])
-def test_cancellations_and_the_list_of_goals_are_those_of_actionlib(
-    master: dict[str, str],
-    simulated: bool,
-) -> None:
+def test_cancellations_and_the_list_of_goals_are_those_of_actionlib(master: dict[str, str], simulated: bool) -> None:
     real = json.loads(run_real(master, [str(SERVER_PEER)])[0].splitlines()[-1])
     assert len([name for name in real if name.startswith("cancel ")]) == 25
     out, _ = run_ours(Graph(simulated=simulated, strict=False), ScriptSpec(str(SERVER_PEER)))

@@ -65,9 +65,7 @@ def fill(package: Path) -> None:
     (package / "scripts/hello.py").chmod(0o755)
 
 
-def test_one_workspace_built_by_both_gives_real_ros_the_same_messages(
-    tmp_path: Path, env: dict[str, str]
-) -> None:
+def test_one_workspace_built_by_both_gives_real_ros_the_same_messages(tmp_path: Path, env: dict[str, str]) -> None:
     for name in ("ours", "theirs"):
         (tmp_path / name / "src").mkdir(parents=True)
         ours(env, tmp_path / name, "catkin_init_workspace", "src")
@@ -105,10 +103,7 @@ def test_the_same_files_are_created(tmp_path: Path, env: dict[str, str]) -> None
     words = ["talk", "std_msgs", "rospy", "roscpp", "message_generation", "message_runtime", "-l", "MIT", "-a", "Ada",
              "-m", "Max", "-V", "1.2.3", "-D", "to talk"]  # fmt: skip
     made = []
-    for folder, tool in (
-        ("real", ["/usr/bin/catkin_create_pkg"]),
-        ("ours", [sys.executable, "-m", "rosmini", TOOL]),
-    ):
+    for folder, tool in (("real", ["/usr/bin/catkin_create_pkg"]), ("ours", [sys.executable, "-m", "rosmini", TOOL])):
         (tmp_path / folder).mkdir()
         done = run([*tool, *words], env=env, cwd=tmp_path / folder, check=True)
         files = sorted(str(path.relative_to(tmp_path / folder)) for path in (tmp_path / folder).rglob("*"))
@@ -122,15 +117,7 @@ def test_the_same_files_are_created(tmp_path: Path, env: dict[str, str]) -> None
 def test_a_workspace_of_real_catkin_is_an_underlay(tmp_path: Path, env: dict[str, str]) -> None:
     for name in ("under", "over"):
         (tmp_path / name / "src").mkdir(parents=True)
-    ours(
-        env,
-        tmp_path / "under/src",
-        "catkin_create_pkg",
-        "talk",
-        "std_msgs",
-        "message_generation",
-        "message_runtime",
-    )
+    ours(env, tmp_path / "under/src", "catkin_create_pkg", "talk", "std_msgs", "message_generation", "message_runtime")
     fill(tmp_path / "under/src/talk")
     run(["/usr/bin/catkin_make"], env=env, cwd=tmp_path / "under", check=True)
     line = f'. under/devel/setup.sh; cd over; "{sys.executable}" -m rosmini catkin_make >/dev/null'

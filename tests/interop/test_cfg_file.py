@@ -47,12 +47,7 @@ def plain(tree: dict[str, Any]) -> dict[str, Any]:
         for constant in enum["enum"]:
             del constant["srcline"]
     groups = [plain(each) for each in tree["groups"]]
-    return {
-        **{key: tree[key] for key in keys},
-        "parameters": parameters,
-        "enums": enums,
-        "groups": groups,
-    }
+    return {**{key: tree[key] for key in keys}, "parameters": parameters, "enums": enums, "groups": groups}
 
 
 @pytest.mark.parametrize("text", [PLANNER, CAMERA], ids=["planner", "camera"])

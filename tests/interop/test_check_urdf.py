@@ -24,9 +24,7 @@ A, B, C = ('<link name="a"/>', '<link name="b"/>', '<link name="c"/>')
 
 
 def joint(name, parent, child, kind="fixed", more=""):
-    return (
-        f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>{more}</joint>'
-    )
+    return f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>{more}</joint>'
 
 
 LIMIT = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'

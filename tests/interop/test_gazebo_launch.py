@@ -84,9 +84,7 @@ def steer(graph: Graph, teleop: dict[str, Any], keys: str, seconds: float) -> No
     """Press keys in a teleoperation, and let it end after so many seconds."""
     executable = find(f"{teleop['package']}/{teleop['type']}")
     pieces = [(0.5, keys), (seconds, "\x03")]
-    result = run_scripts(
-        [ScriptSpec(str(executable.path), words(teleop))], graph=graph, stdin=pieces, duration=60.0
-    )
+    result = run_scripts([ScriptSpec(str(executable.path), words(teleop))], graph=graph, stdin=pieces, duration=60.0)
     assert (result.status, result.reason) == (0, "ended")
 
 
@@ -97,10 +95,7 @@ def test_two_robots_in_the_house_drive_and_see(graph: Graph) -> None:
     objects, teleops = start(graph, plan)
     server = objects["/gazebo"]
     assert set(server.world.models) >= {"tb3_0", "tb3_1"}
-    assert [node["remaps"] for node in teleops] == [
-        [["cmd_vel", "/tb3_0/cmd_vel"]],
-        [["cmd_vel", "/tb3_1/cmd_vel"]],
-    ]
+    assert [node["remaps"] for node in teleops] == [[["cmd_vel", "/tb3_0/cmd_vel"]], [["cmd_vel", "/tb3_1/cmd_vel"]]]
 
     ear = graph.node("ear")
     scans: dict[str, list[Any]] = {}
@@ -140,9 +135,7 @@ def test_two_robots_in_the_house_drive_and_see(graph: Graph) -> None:
         ("turtlebot3_house.launch", "waffle", (-3.0, 1.0)),
     ],
 )
-def test_the_worlds_of_turtlebot3_start(
-    graph: Graph, launch: str, model: str, where: tuple[float, float]
-) -> None:
+def test_the_worlds_of_turtlebot3_start(graph: Graph, launch: str, model: str, where: tuple[float, float]) -> None:
     objects, _ = start(graph, computed(launch, model=model))
     server = objects["/gazebo"]
     name = f"turtlebot3_{model}"

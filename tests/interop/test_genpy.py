@@ -58,9 +58,7 @@ def all_types() -> list[str]:
     found = []
     for package in reg.source.packages():
         found += [f"{package}/{name}" for name in reg.messages(package)]
-        found += [
-            f"{package}/{name}{half}" for name in reg.services(package) for half in ("Request", "Response")
-        ]
+        found += [f"{package}/{name}{half}" for name in reg.services(package) for half in ("Request", "Response")]
     return found
 
 
@@ -201,9 +199,7 @@ def test_what_a_subscriber_receives(compared: Any) -> None:
             assert describe(cls._thaw(cls._decode(other["data"]))) == other["received"], cls._type
             assert describe(cls().deserialize(other["data"])) == other["received"], cls._type
             if other["received_numpy"] is not None:
-                assert describe(cls().deserialize_numpy(other["data"], np)) == other["received_numpy"], (
-                    cls._type
-                )
+                assert describe(cls().deserialize_numpy(other["data"], np)) == other["received_numpy"], cls._type
 
 
 def test_printed_form(compared: Any) -> None:

@@ -54,6 +54,4 @@ def test_the_whole_table_is_genpys() -> None:
     exec(TABLE, names)
     theirs, mine = json.loads(done.stdout), names["table"](ours)
     assert len(theirs) > 3000
-    assert [
-        (a[0], "genpy", a[1], "ours", b[1]) for a, b in itertools.zip_longest(theirs, mine) if a != b
-    ] == []
+    assert [(a[0], "genpy", a[1], "ours", b[1]) for a, b in itertools.zip_longest(theirs, mine) if a != b] == []

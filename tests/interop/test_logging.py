@@ -49,12 +49,7 @@ def test_loggers_levels_and_files(real: tuple[str, str, str], simulated: bool, t
     graph.notebook = False  # nbval has imported ipykernel into this process
     out, err = io.StringIO(), io.StringIO()
     result = run_scripts(
-        [ScriptSpec(str(PEER), ())],
-        graph=graph,
-        stdout=out,
-        stderr=err,
-        prefix=False,
-        modules=rospy.modules(),
+        [ScriptSpec(str(PEER), ())], graph=graph, stdout=out, stderr=err, prefix=False, modules=rospy.modules()
     )
     graph.shutdown("the test is over")
     assert result.status == 0, err.getvalue()

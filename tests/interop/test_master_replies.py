@@ -67,10 +67,7 @@ def real(tmp_path_factory):
     need_ros("rosmaster")
     slaves = SlaveServer()
     try:
-        with (
-            rosmaster(tmp_path_factory.mktemp("ros")) as found,
-            ServerProxy(found["ROS_MASTER_URI"]) as proxy,
-        ):
+        with rosmaster(tmp_path_factory.mktemp("ros")) as found, ServerProxy(found["ROS_MASTER_URI"]) as proxy:
             yield proxy, slaves
     finally:
         slaves.close()
@@ -193,9 +190,7 @@ def test_every_answer_and_every_notification_is_the_real_ones(real, served) -> N
     assert differences == []
     # The real Master tells different nodes in parallel: only the order for each node is fixed.
     for uri in slaves.uris:
-        assert [call for call in recorder.heard if call[0] == uri] == [
-            call for call in slaves.heard if call[0] == uri
-        ]
+        assert [call for call in recorder.heard if call[0] == uri] == [call for call in slaves.heard if call[0] == uri]
     assert len(recorder.heard) > 20
 
 

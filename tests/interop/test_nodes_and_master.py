@@ -159,14 +159,10 @@ def test_the_robot_stops_before_the_wall_and_half_of_what_is_wished_for_arrives(
 
 def test_a_script_introduces_two_nodes_in_the_place_of_the_master(play: Play) -> None:
     with play.node("robot.py") as robot:
-        wait_until(
-            lambda: "/simulator" in str(play.master("getSystemState", "/test")[1]), "the robot", robot[0]
-        )
+        wait_until(lambda: "/simulator" in str(play.master("getSystemState", "/test")[1]), "the robot", robot[0])
         uri = play.master("lookupNode", "/test", "/simulator")
         wait_until(
-            lambda: play.master("unregisterSubscriber", "/simulator", "/cmd_vel", uri) == 1,
-            "its entry",
-            robot[0],
+            lambda: play.master("unregisterSubscriber", "/simulator", "/cmd_vel", uri) == 1, "its entry", robot[0]
         )
         with play.node("circle.py") as (driver, _):
             wait_until(lambda: play.drivers() == ["/driver"], "the driver", driver)
@@ -175,10 +171,7 @@ def test_a_script_introduces_two_nodes_in_the_place_of_the_master(play: Play) ->
 
 
 def test_a_script_ends_all_drivers_but_one(play: Play) -> None:
-    with (
-        play.node("circle.py") as (driver, _),
-        play.node("circle.py", "__name:=prankster") as (prankster, _),
-    ):
+    with play.node("circle.py") as (driver, _), play.node("circle.py", "__name:=prankster") as (prankster, _):
         wait_until(lambda: play.drivers() == ["/driver", "/prankster"], "two drivers", driver)
         with play.node("referee.py"):
             wait_until(lambda: prankster.poll() is not None, "the end of the prankster", driver)

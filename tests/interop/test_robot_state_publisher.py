@@ -73,11 +73,7 @@ def ours(name):
         publisher.publish(message)
         graph.run(0.1)
         return {
-            frame: [
-                edge.newest.parent,
-                edge.static,
-                list(buffer.tree.lookup(edge.newest.parent, frame).transform),
-            ]
+            frame: [edge.newest.parent, edge.static, list(buffer.tree.lookup(edge.newest.parent, frame).transform)]
             for frame, edge in buffer.tree.edges.items()
         }
 

@@ -204,12 +204,6 @@ def test_what_they_raise_we_raise(tmp_path):
     assert list(found) == list(expected)
     for name, answer in expected.items():
         wanted = UNLIKE.get(name, answer)
-        raised = isinstance(wanted, list) and any(
-            str(word).endswith(("Error", "Exception")) for word in wanted
-        )
-        same = (
-            set(wanted) <= set(found[name])
-            if raised and isinstance(found[name], list)
-            else found[name] == wanted
-        )
+        raised = isinstance(wanted, list) and any(str(word).endswith(("Error", "Exception")) for word in wanted)
+        same = set(wanted) <= set(found[name]) if raised and isinstance(found[name], list) else found[name] == wanted
         assert same, f"{name}: they {answer}, we {found[name]}"

@@ -100,8 +100,7 @@ def test_names_resolve_as_in_real_ros() -> None:
     theirs = json.loads(done.stdout)
     ours: dict = {"rospy": [], "rosgraph": [], "basic": [], "argv": []}
     ours["legal"] = [
-        [outcome(function, name) for function in (is_legal_name, is_legal_base_name, namespace)]
-        for name in ODD
+        [outcome(function, name) for function in (is_legal_name, is_legal_base_name, namespace)] for name in ODD
     ]
     ours["wrong"] = [load_mappings([word]) for word in WRONG]
     for node, rules, name in table:
@@ -112,17 +111,10 @@ def test_names_resolve_as_in_real_ros() -> None:
         found = Remappings.from_argv(argv)
         legal = [is_remapping(argument) for argument in argv]
         ours["argv"].append(
-            [
-                {**found.names, **found.special},
-                found.private_parameters,
-                Remappings.other_arguments(argv),
-                legal,
-            ]
+            [{**found.names, **found.special}, found.private_parameters, Remappings.other_arguments(argv), legal]
         )
     for kind, rows in theirs.items():
         labels = {"argv": ARGVS, "legal": ODD, "wrong": WRONG}.get(kind, table)
         assert [
-            (kind, at, "real", a, "ours", b)
-            for at, a, b in zip(labels, rows, ours[kind], strict=True)
-            if a != b
+            (kind, at, "real", a, "ours", b) for at, a, b in zip(labels, rows, ours[kind], strict=True) if a != b
         ] == []

@@ -58,17 +58,14 @@ def described(node: NodePlan) -> dict[str, Any]:
 def compare(plan: Plan, expected: dict[str, Any]) -> None:
     assert "error" not in expected, expected
     values = {
-        name: value.decode("latin-1") if isinstance(value, bytes) else value
-        for name, value in plan.parameters.items()
+        name: value.decode("latin-1") if isinstance(value, bytes) else value for name, value in plan.parameters.items()
     }
     for text in [name for name in values if name.endswith("robot_description")]:
         assert "<robot" in values.pop(text) and "<robot" in expected["params"].pop(text)
     assert values == expected["params"]
     assert [type(value) for value in values.values()] == [type(expected["params"][name]) for name in values]
     assert [described(node) for node in plan.all_nodes()] == expected["nodes"]
-    assert [os.path.realpath(file) for file in plan.files()] == [
-        os.path.realpath(file) for file in expected["files"]
-    ]
+    assert [os.path.realpath(file) for file in plan.files()] == [os.path.realpath(file) for file in expected["files"]]
     assert plan.cleared == expected["cleared"]
     assert sorted(plan.machines) == expected["machines"]
 
@@ -155,9 +152,7 @@ WRONG = {
 }
 
 
-def test_what_real_roslaunch_refuses_is_refused_with_its_line(
-    environment: dict[str, str], tmp_path: Path
-) -> None:
+def test_what_real_roslaunch_refuses_is_refused_with_its_line(environment: dict[str, str], tmp_path: Path) -> None:
     cases = {name: text for name, text in WRONG.items() if text is not None}
     paths = {}
     for number, (name, text) in enumerate(cases.items()):

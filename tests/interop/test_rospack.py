@@ -74,9 +74,7 @@ def test_what_the_real_one_prints_in_any_order_is_sorted(tools: Tools, line: str
     assert ours.stdout.splitlines() == sorted(real.stdout.splitlines())
 
 
-@pytest.mark.parametrize(
-    "line", ["rospack list", "rospack list-names", "rosstack list", "rosstack list-names"]
-)
+@pytest.mark.parametrize("line", ["rospack list", "rospack list-names", "rosstack list", "rosstack list-names"])
 def test_the_lists_have_the_same_packages_of_the_workspace(tools: Tools, line: str) -> None:
     def of_workspace(text: str) -> list[str]:
         names = {path.name for path in Path(tools.env["HOME"]).rglob("*") if path.is_dir()} | {"renamed"}

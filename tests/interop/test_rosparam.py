@@ -53,12 +53,7 @@ def test_the_module_does_what_the_real_one_does(master: dict[str, str], simulate
     graph.notebook = False  # nbval has imported ipykernel into this process
     out, err = io.StringIO(), io.StringIO()
     result = run_scripts(
-        [ScriptSpec(str(PEER), ())],
-        graph=graph,
-        stdout=out,
-        stderr=err,
-        prefix=False,
-        modules=rospy.modules(),
+        [ScriptSpec(str(PEER), ())], graph=graph, stdout=out, stderr=err, prefix=False, modules=rospy.modules()
     )
     graph.shutdown("the test is over")
     assert result.status == 0, err.getvalue()

@@ -29,9 +29,7 @@ QUESTIONS = [
 
 
 def test_the_same_lines_do_the_same(tools: Tools, tmp_path: Path) -> None:
-    (tmp_path / "p.yaml").write_text(
-        "a: 1\nb: {c: [1, 2], d: -5}\n---\n_ns: sub\nz: rad(pi)\n", encoding="utf-8"
-    )
+    (tmp_path / "p.yaml").write_text("a: 1\nb: {c: [1, 2], d: -5}\n---\n_ns: sub\nz: rad(pi)\n", encoding="utf-8")
     (tmp_path / "t.txt").write_text("hello\nworld\n", encoding="utf-8")
     state = []
     for tool in (tools.real, tools.ours):

@@ -25,7 +25,7 @@ ARGUMENTS = ("chatter:=/news", "_started:=[1, x]")
 
 DIFFERENT = {
     # rospy applies remappings to resolve_name() only once there is a node; ours are never forgotten.
-    ("early", "remapped"): (["/chatter", "/news", "other"], ["/news", "/news", "other"]),
+    ("early", "remapped"): (["/chatter", "/news", "other"], ["/news", "/news", "other"])
 }
 """What differs on purpose: (real, ours)."""
 

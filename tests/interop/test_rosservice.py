@@ -66,9 +66,7 @@ def test_the_same_line_prints_the_same(tools: Tools, line: str) -> None:
     assert ours.stderr.startswith(real.stderr)
 
 
-@pytest.mark.parametrize(
-    "line", ["type /nope", "uri /nope", "info /nope", "call /nope", "args /nope", "call /fails"]
-)
+@pytest.mark.parametrize("line", ["type /nope", "uri /nope", "info /nope", "call /nope", "args /nope", "call /fails"])
 def test_errors_begin_as_the_real_ones(tools: Tools, line: str) -> None:
     real, ours = tools.both(f"rosservice {line}")
     assert (ours.stdout, ours.returncode) == (real.stdout, real.returncode)

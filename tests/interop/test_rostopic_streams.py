@@ -123,9 +123,7 @@ def test_ours_hears_a_real_publisher_that_comes_later(graph: dict[str, str]) -> 
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_ends_it_and_nothing_is_left_at_the_master(
-    graph: dict[str, str], number: signal.Signals
-) -> None:
+def test_a_signal_ends_it_and_nothing_is_left_at_the_master(graph: dict[str, str], number: signal.Signals) -> None:
     def subscribers() -> list[str]:
         return list(dict(ask(graph, "getSystemState")[1]).get("/odom", []))
 

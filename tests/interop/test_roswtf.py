@@ -46,9 +46,7 @@ def test_what_the_real_one_finds_ours_names(master: dict[str, str]) -> None:
     apart = re.findall(r"^ \* (\S+)->(\S+) \((\S+)\)$", real, re.MULTILINE)
     assert set(apart) <= {("/listener", "/talker", "/num")}  # rospy tries again and again
     assert " * /num:\n   std_msgs/Int32: /talker\n   std_msgs/String: /listener\n" in ours.stdout
-    unheard = set(
-        re.findall(r"^   \* (\S+)$", real.partition("subscriptions are unconnected")[2], re.MULTILINE)
-    )
+    unheard = set(re.findall(r"^   \* (\S+)$", real.partition("subscriptions are unconnected")[2], re.MULTILINE))
     assert "/chater" in unheard
     assert " * /chater, to which /listener subscribes\n   did you mean /chatter?\n" in ours.stdout
     assert "Found 2 error(s)." in ours.stdout

@@ -31,9 +31,7 @@ def graph(master):
     """A graph of ours that is part of the real one, with the real node ready."""
     with start([SYSTEM_PYTHON, "-c", NODE], env=master) as process, connect(master) as graph:
         caller = ServiceCaller(graph, name="waiting")
-        wait_until(
-            lambda: {"/camera", "/real/set_logger_level"} <= set(caller.names()), "the real node", process
-        )
+        wait_until(lambda: {"/camera", "/real/set_logger_level"} <= set(caller.names()), "the real node", process)
         caller.close()
         yield graph
 

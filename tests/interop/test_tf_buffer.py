@@ -104,9 +104,7 @@ def test_the_same_answers(seed: int, wander: bool) -> None:
     real = real_answers(task)
     ours, core = our_answers(task)
     numbers = 0
-    for question, (theirs, their_stamp), (mine, my_stamp) in zip(
-        task["asked"], real["answers"], ours, strict=True
-    ):
+    for question, (theirs, their_stamp), (mine, my_stamp) in zip(task["asked"], real["answers"], ours, strict=True):
         if isinstance(theirs, str) or isinstance(mine, str):
             assert theirs == mine or better(theirs, mine), question
         else:
@@ -119,7 +117,4 @@ def test_the_same_answers(seed: int, wander: bool) -> None:
             mine: object = core.get_latest_common_time(target, source).to_nsec()
         except TransformException as error:
             mine = type(error).__name__
-        assert mine == theirs or (theirs == "TransformException" and mine == "ConnectivityException"), (
-            target,
-            source,
-        )
+        assert mine == theirs or (theirs == "TransformException" and mine == "ConnectivityException"), (target, source)

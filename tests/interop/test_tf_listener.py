@@ -33,9 +33,7 @@ def test_ours_answers_as_real_tf() -> None:
     real = json.loads(run([SYSTEM_PYTHON, str(PEER)], check=True).stdout.splitlines()[-1])
     out = io.StringIO()
     with Graph() as graph:
-        result = run_scripts(
-            [ScriptSpec(str(PEER))], graph=graph, stdin="", stdout=out, stderr=out, prefix=False
-        )
+        result = run_scripts([ScriptSpec(str(PEER))], graph=graph, stdin="", stdout=out, stderr=out, prefix=False)
     assert result.status == 0, out.getvalue()
     ours = json.loads(out.getvalue().splitlines()[-1])
     differing = {name: (real[name], answer) for name, answer in ours.items() if answer != real[name]}

@@ -34,9 +34,7 @@ def real() -> dict[str, object]:
 
 def numbers(value: object) -> np.ndarray:
     parts = value if isinstance(value, list) else [value]
-    return (
-        np.concatenate([np.ravel(np.asarray(part, dtype=float)) for part in parts]) if parts else np.zeros(0)
-    )
+    return np.concatenate([np.ravel(np.asarray(part, dtype=float)) for part in parts]) if parts else np.zeros(0)
 
 
 def test_all_answers_are_the_real_ones(real: dict[str, object]) -> None:

@@ -60,6 +60,4 @@ def test_statistics_are_those_of_rospy(busy: float) -> None:
             got = getattr(mine, name)
             # rospy rounds squares of seconds to nanoseconds
             tolerance = 40_000 if "stddev" in name else 1000
-            assert (got if isinstance(got, int) else got.to_nsec()) == pytest.approx(value, abs=tolerance), (
-                name
-            )
+            assert (got if isinstance(got, int) else got.to_nsec()) == pytest.approx(value, abs=tolerance), name

@@ -7,13 +7,7 @@ import json
 
 import rospy
 import tf
-from geometry_msgs.msg import (
-    PointStamped,
-    PoseStamped,
-    QuaternionStamped,
-    TransformStamped,
-    Vector3Stamped,
-)
+from geometry_msgs.msg import PointStamped, PoseStamped, QuaternionStamped, TransformStamped, Vector3Stamped
 from sensor_msgs.msg import PointCloud
 from std_msgs.msg import Header
 
@@ -71,19 +65,13 @@ def main():
     told(listener)
     now, then, never = rospy.Time(11), rospy.Time(10, 500000000), rospy.Time(99)
     cloud = stamped(PointCloud)
-    point, vector, turn, pose = (
-        stamped(cls) for cls in (PointStamped, Vector3Stamped, QuaternionStamped, PoseStamped)
-    )
+    point, vector, turn, pose = (stamped(cls) for cls in (PointStamped, Vector3Stamped, QuaternionStamped, PoseStamped))
     point.point.x, vector.vector.y, turn.quaternion.w = 1.0, 2.0, 1.0
     pose.pose.position.z, pose.pose.orientation.x = 3.0, 1.0
-    cloud.points = (
-        [type(point.point)(1, 2, 3), type(point.point)(4, 5, 6)] if hasattr(cloud, "points") else []
-    )
+    cloud.points = [type(point.point)(1, 2, 3), type(point.point)(4, 5, 6)] if hasattr(cloud, "points") else []
     full = ("base", now, "laser", then, "odom")
     answers = {
-        "can": [
-            ask(listener.canTransform, "/odom", "laser", when) for when in (now, then, never, rospy.Time(0))
-        ],
+        "can": [ask(listener.canTransform, "/odom", "laser", when) for when in (now, then, never, rospy.Time(0))],
         "cannot": ask(listener.canTransform, "odom", "away", now),
         "can full": ask(listener.canTransformFull, *full),
         "cannot full": ask(listener.canTransformFull, "base", never, "laser", then, "odom"),

@@ -77,12 +77,7 @@ def answers(t):
         ask("inverse_matrix", t.quaternion_matrix(a))
         ask("is_same_transform", t.quaternion_matrix(a), 2 * t.quaternion_matrix(a))
         ask("is_same_transform", t.quaternion_matrix(a), t.quaternion_matrix(b))
-    for turn in (
-        np.diag([1, -1, -1, 1.0]),
-        np.diag([-1, 1, -1, 1.0]),
-        np.diag([-1, -1, 1, 1.0]),
-        2 * np.eye(4),
-    ):
+    for turn in (np.diag([1, -1, -1, 1.0]), np.diag([-1, 1, -1, 1.0]), np.diag([-1, -1, 1, 1.0]), 2 * np.eye(4)):
         ask("quaternion_from_matrix", turn)
         ask("euler_from_matrix", turn)
     ask("euler_from_matrix", t.euler_matrix(0.3, np.pi / 2, 0.2))

@@ -56,13 +56,7 @@ class Kernel:
         """Send a cell and do not wait for it."""
         message = self.client.session.msg(
             "execute_request",
-            {
-                "code": code,
-                "silent": False,
-                "store_history": True,
-                "allow_stdin": False,
-                "stop_on_error": False,
-            },
+            {"code": code, "silent": False, "store_history": True, "allow_stdin": False, "stop_on_error": False},
         )
         message["header"]["subshell_id"] = subshell
         self.client.shell_channel.send(message)
@@ -81,12 +75,7 @@ class Kernel:
         return cell
 
     def comm(
-        self,
-        target: str,
-        data: object = None,
-        comm_id: str = "c",
-        kind: str = "comm_msg",
-        subshell: str | None = None,
+        self, target: str, data: object = None, comm_id: str = "c", kind: str = "comm_msg", subshell: str | None = None
     ) -> Cell:
         """Send a widget's message."""
         content = {"comm_id": comm_id, "data": data or {}}

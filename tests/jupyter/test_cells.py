@@ -9,17 +9,11 @@ import pytest
 
 
 def test_a_cell_blocks_and_callbacks_run_meanwhile(kernel):
-    assert (
-        kernel.ok("pub.publish('a'); report = graph.run(0.05); print(report.reason)").stdout
-        == "heard a\ntime\n"
-    )
+    assert kernel.ok("pub.publish('a'); report = graph.run(0.05); print(report.reason)").stdout == "heard a\ntime\n"
     assert kernel.ok("pub.publish('b'); talker.sleep(0.05)").stdout == "heard b\n"
     assert kernel.ok("print(add(1, 2).sum)").stdout == "3\n"
     kernel.ok("timer = talker.timer(0.02, lambda event: pub.publish('tick'), oneshot=True)")
-    assert (
-        kernel.ok("print(listener.wait_for_message('chatter', String).data)").stdout.splitlines()[-1]
-        == "tick"
-    )
+    assert kernel.ok("print(listener.wait_for_message('chatter', String).data)").stdout.splitlines()[-1] == "tick"
 
 
 def test_output_of_a_callback_that_was_parked_in_an_earlier_cell_goes_to_the_cell_that_drives(kernel):
@@ -47,9 +41,7 @@ slow_pub.publish("x")
 
 
 def test_what_a_callback_raises_is_raised_in_the_driving_cell_with_the_users_lines_only(kernel):
-    kernel.ok(
-        "def broken(message):\n    raise ValueError('oops')\nlistener.subscriber('chatter', String, broken);"
-    )
+    kernel.ok("def broken(message):\n    raise ValueError('oops')\nlistener.subscriber('chatter', String, broken);")
     cell = kernel.run("pub.publish('x')\ngraph.run(0.05)")
     assert cell.errors == ["CallbackError"]
     (shown,) = cell.tracebacks
@@ -106,9 +98,7 @@ def test_an_interrupt_ends_the_cell_and_leaves_the_graph_in_order(kernel, what):
     kernel.until(lambda: cell.idle, "the end")
     assert cell.errors == ["KeyboardInterrupt"]
     assert "rosmini" not in cell.tracebacks[0]
-    assert (
-        kernel.ok("pub.publish('after'); graph.run(0.05); print(add(1, 2).sum)").stdout == "heard after\n3\n"
-    )
+    assert kernel.ok("pub.publish('after'); graph.run(0.05); print(add(1, 2).sum)").stdout == "heard after\n3\n"
 
 
 def test_an_interrupt_ends_a_run_that_is_busy_in_simulated_time(shared_kernel):

@@ -20,16 +20,12 @@ def live(kernel, code="drive = graph.live()"):
 def test_a_live_graph_goes_on_between_cells_and_writes_into_the_cell_that_started_it(kernel):
     cell = live(kernel, "drive = graph.live()\ntimer = talker.timer(0.02, lambda event: pub.publish('tick'))")
     kernel.until(lambda: cell.stdout.count("heard tick") > 3, "ticks between cells")
-    other = kernel.ok(
-        "pub.publish('mine'); listener.sleep(0.05)"
-    )  # a cell that blocks drives the graph itself
+    other = kernel.ok("pub.publish('mine'); listener.sleep(0.05)")  # a cell that blocks drives the graph itself
     assert "heard mine" in other.stdout
     kernel.ok("await asyncio.sleep(0.1)")
     before = cell.stdout.count("tick")
     kernel.until(lambda: cell.stdout.count("tick") > before + 3, "ticks after the other cells")
-    stopped = kernel.ok(
-        "drive.stop()\nn = len(heard)\nawait asyncio.sleep(0.1)\nprint(len(heard) == n, graph.is_live)"
-    )
+    stopped = kernel.ok("drive.stop()\nn = len(heard)\nawait asyncio.sleep(0.1)\nprint(len(heard) == n, graph.is_live)")
     assert stopped.stdout == "True False\n"
 
 
@@ -52,9 +48,7 @@ drive = graph.live()
 
 
 def test_an_error_of_a_callback_is_shown_once_and_stops_a_live_graph(kernel):
-    kernel.ok(
-        "def broken(message):\n    1 / 0\nlistener.subscriber('chatter', String, broken)\nlistener.sleep(0.01)"
-    )
+    kernel.ok("def broken(message):\n    1 / 0\nlistener.subscriber('chatter', String, broken)\nlistener.sleep(0.01)")
     cell = live(kernel)
     kernel.ok("pub.publish('x')")
     kernel.until(lambda: cell.errors, "the error")
@@ -66,9 +60,7 @@ def test_an_error_of_a_callback_is_shown_once_and_stops_a_live_graph(kernel):
     kernel.ok("graph.strict = False")
     again = live(kernel)
     kernel.ok("pub.publish('y'); pub.publish('z')")
-    kernel.until(
-        lambda: "heard z" in again.stdout and again.stdout.count("broken of /listener") == 2, "the log"
-    )
+    kernel.until(lambda: "heard z" in again.stdout and again.stdout.count("broken of /listener") == 2, "the log")
     assert kernel.ok("print(graph.is_live); drive.stop()").stdout == "True\n"
 
 
@@ -85,10 +77,7 @@ def test_an_interrupt_between_cells_stops_a_live_graph_and_one_of_a_cell_does_no
     kernel.interrupt()
     kernel.until(lambda: cell.stderr, "the notice")
     assert cell.stderr == "The live graph was stopped by an interrupt. Call live() to go on.\n"
-    assert (
-        kernel.ok("pub.publish('after'); graph.run(0.01); print(graph.is_live)").stdout
-        == "heard after\nFalse\n"
-    )
+    assert kernel.ok("pub.publish('after'); graph.run(0.01); print(graph.is_live)").stdout == "heard after\nFalse\n"
 
 
 def test_a_callback_that_hangs_in_a_live_graph_is_ended_by_two_interrupts(kernel):
@@ -134,9 +123,7 @@ CALLS = (
 
 @pytest.mark.parametrize("state", ["idle", "live", "driving", "busy"])
 def test_calls_from_a_subshell_get_through(kernel, state):
-    kernel.ok(
-        "talker.timer(0.01, lambda event: None)\nlistener.sleep(0.02)"
-    )  # a parked lane, as real graphs have
+    kernel.ok("talker.timer(0.01, lambda event: None)\nlistener.sleep(0.02)")  # a parked lane, as real graphs have
     busy = None
     if state == "live":
         live(kernel)
@@ -171,9 +158,7 @@ def test_errors_and_endless_waits_of_a_subshell_end_there(kernel):
     assert cell.errors == ["ROSException"]
     cell = kernel.run("talker.service_client('nothing', AddTwoInts)(1, 2)", subshell)
     assert cell.errors == ["ServiceException"]
-    kernel.ok(
-        "def broken(message):\n    1 / 0\nlistener.subscriber('chatter', String, broken)\nlistener.sleep(0.01)"
-    )
+    kernel.ok("def broken(message):\n    1 / 0\nlistener.subscriber('chatter', String, broken)\nlistener.sleep(0.01)")
     cell = kernel.run("pub.publish('x')\ntalker.sleep(0.05)", subshell)  # the call that drives
     assert cell.errors == ["CallbackError"]
     assert kernel.ok("print(add(1, 2).sum)").stdout == "3\n"
@@ -188,8 +173,7 @@ def test_a_subshell_hears_that_nothing_can_happen_any_more(kernel):
 def test_a_graph_that_a_widgets_thread_made_is_refused_to_cells_while_it_has_parked_lanes(kernel):
     subshell = kernel.subshell()
     made = kernel.run(
-        "theirs = Graph(); node = theirs.node('n'); node.timer(0.1, lambda event: None); theirs.run(0.15);",
-        subshell,
+        "theirs = Graph(); node = theirs.node('n'); node.timer(0.1, lambda event: None); theirs.run(0.15);", subshell
     )
     assert made.errors == []
     cell = kernel.run("node.sleep(0.1)")

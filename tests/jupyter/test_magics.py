@@ -18,12 +18,9 @@ def test_commands_are_line_magics(shared_kernel: Any) -> None:
         "before = graph.now()\nfound = %rosparam set /gains '{p: 1.0, i: {max: 2}}'\n%rosparam get /gains"
     )
     assert cell.stdout == "i:\n  max: 2\np: 1.0\n\n"
-    assert shared_kernel.ok("found.names, graph.now() == before").shown == [
-        "(('/gains/p', '/gains/i/max'), True)"
-    ]
+    assert shared_kernel.ok("found.names, graph.now() == before").shown == ["(('/gains/p', '/gains/i/max'), True)"]
     assert (
-        shared_kernel.ok("%rossrv show std_srvs/SetBool").stdout
-        == "bool data\n---\nbool success\nstring message\n\n"
+        shared_kernel.ok("%rossrv show std_srvs/SetBool").stdout == "bool data\n---\nbool success\nstring message\n\n"
     )
     assert shared_kernel.ok("nodes = %rosnode list").stdout == "/rosout\n/talker\n"
     assert shared_kernel.ok("nodes").stdout == "/rosout\n/talker\n"
@@ -56,17 +53,11 @@ def test_words_are_completed(shared_kernel: Any) -> None:
 
 
 def test_below_a_traceback_stands_what_roswtf_knows(shared_kernel: Any) -> None:
-    shared_kernel.ok(
-        "%load_ext rosmini\n%roscore\nfrom rosmini import default_graph, install\ninstall()\nimport rospy"
-    )
-    shared_kernel.ok(
-        "from std_msgs.msg import String\n_ = default_graph().node('talker').publisher('chatter', String)"
-    )
+    shared_kernel.ok("%load_ext rosmini\n%roscore\nfrom rosmini import default_graph, install\ninstall()\nimport rospy")
+    shared_kernel.ok("from std_msgs.msg import String\n_ = default_graph().node('talker').publisher('chatter', String)")
     cell = shared_kernel.run("rospy.init_node('me')\nrospy.wait_for_message('/chater', String, timeout=2)")
     assert len(cell.errors) == 1
-    assert cell.stdout.endswith(
-        "roswtf: ERROR Nothing in the graph is called /chater; did you mean /chatter?\n"
-    )
+    assert cell.stdout.endswith("roswtf: ERROR Nothing in the graph is called /chater; did you mean /chatter?\n")
     assert shared_kernel.run("1 / 0").stdout == ""
 
 

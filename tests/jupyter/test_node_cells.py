@@ -138,9 +138,7 @@ def test_a_restart_while_nodes_run_leaves_no_folder(new_kernel: Any) -> None:
 
 def test_a_script_that_forks_is_one_script_here(new_kernel: Any) -> None:
     new_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
-    forks = (
-        "import os, time\nchild = os.fork()\nif not child:\n    time.sleep(1)\nprint(os.waitpid(child, 0)[1])"
-    )
+    forks = "import os, time\nchild = os.fork()\nif not child:\n    time.sleep(1)\nprint(os.waitpid(child, 0)[1])"
     assert new_kernel.ok(f"%%node forks.py\n{forks}").stdout == "0\n"
     ends = "import os\nchild = os.fork()\nif child:\n    print(os.waitpid(child, 0)[1])"
     assert new_kernel.ok(f"%%node ends.py\n{ends}").stdout == "0\n"
@@ -229,18 +227,7 @@ def test_the_stored_form_is_the_same_in_every_run(tmp_path: Path, root: Path) ->
     assert "Pid: 4242" in stored
     assert "who? hello Ada" in stored
     assert "~/catkin_ws/src/notebook" in stored
-    words = (
-        "-m",
-        "pytest",
-        "-q",
-        "-n0",
-        "--nbval",
-        "--nbval-current-env",
-        "-p",
-        "no:cacheprovider",
-        "--rootdir",
-        root,
-    )
+    words = ("-m", "pytest", "-q", "-n0", "--nbval", "--nbval-current-env", "-p", "no:cacheprovider", "--rootdir", root)
     done = run([sys.executable, *words, "-c", root / "pyproject.toml", path], cwd=root)
     assert done.returncode == 0, done.stdout
     assert f"{len(codes)} passed" in done.stdout
@@ -248,9 +235,7 @@ def test_the_stored_form_is_the_same_in_every_run(tmp_path: Path, root: Path) ->
 
 def test_a_script_with_asyncio_is_told_why_it_cannot_run_here(shared_kernel: Any) -> None:
     shared_kernel.ok("%load_ext rosmini\n%roscore")
-    cell = (
-        "%%node a.py\nimport asyncio\nasync def main():\n    await asyncio.sleep(0.1)\nasyncio.run(main())\n"
-    )
+    cell = "%%node a.py\nimport asyncio\nasync def main():\n    await asyncio.sleep(0.1)\nasyncio.run(main())\n"
     ended = shared_kernel.ok(cell)
     assert "RuntimeError: asyncio.run() cannot be called from a running event loop" in ended.stderr
     assert "a notebook's kernel runs an event loop of its own in this thread" in ended.stderr

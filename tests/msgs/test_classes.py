@@ -97,9 +97,7 @@ def test_services_and_actions() -> None:
         (action_class, "move_base_msgs/MoveBse", UnknownType, "did you mean MoveBase"),
     ],
 )
-def test_an_unknown_type_is_refused_with_the_nearest(
-    make: Any, name: str, error: type[Exception], words: str
-) -> None:
+def test_an_unknown_type_is_refused_with_the_nearest(make: Any, name: str, error: type[Exception], words: str) -> None:
     with pytest.raises(error, match=words):
         make(name)
 
@@ -126,9 +124,7 @@ def test_pickles_name_the_type_and_not_a_module() -> None:
 
 
 def test_equality_is_by_value_and_takes_lists_tuples_and_arrays_for_alike() -> None:
-    assert (
-        LaserScan(ranges=[1.0, 2.0]) == LaserScan(ranges=(1.0, 2.0)) == LaserScan(ranges=np.array([1.0, 2.0]))
-    )
+    assert LaserScan(ranges=[1.0, 2.0]) == LaserScan(ranges=(1.0, 2.0)) == LaserScan(ranges=np.array([1.0, 2.0]))
     assert LaserScan(ranges=[1.0]) != LaserScan(ranges=[1.0, 2.0])
     assert String("a") != "a"
     assert String() != message_class("rosgraph_msgs/Clock")()
@@ -157,16 +153,12 @@ def test_freezing_takes_a_snapshot_as_the_other_end_of_a_wire_would_see_it() -> 
     twist.linear.x = 2.0
     assert frozen.linear.x == 1.0
     assert type(frozen.linear.x) is float
-    assert message_class("std_msgs/Float32")._freeze(
-        message_class("std_msgs/Float32")(0.1)
-    ).data == np.float32(0.1)
+    assert message_class("std_msgs/Float32")._freeze(message_class("std_msgs/Float32")(0.1)).data == np.float32(0.1)
     clock = message_class("rosgraph_msgs/Clock")(Time(3, 4))
     frozen_clock = type(clock)._freeze(clock)
     clock.clock.secs = 9
     assert frozen_clock.clock == Time(3, 4)
-    assert (
-        type(message_class("std_msgs/Int8")._freeze(message_class("std_msgs/Int8")(np.int8(3))).data) is int
-    )
+    assert type(message_class("std_msgs/Int8")._freeze(message_class("std_msgs/Int8")(np.int8(3))).data) is int
 
 
 def test_frozen_arrays_can_never_be_written_to() -> None:
@@ -225,10 +217,7 @@ def test_plain_classes_are_those_without_arrays() -> None:
 @pytest.mark.parametrize(
     ("message", "words"),
     [
-        (
-            lambda: _pose_with_x("1.5"),
-            r"field pose.position.x must be float type, not '1.5' \(str\) \[float64\]",
-        ),
+        (lambda: _pose_with_x("1.5"), r"field pose.position.x must be float type, not '1.5' \(str\) \[float64\]"),
         (
             lambda: Path(poses=[PoseStamped(), _pose_with_x(None)]),
             r"field poses\[1\].pose.position.x must be float type, not None",
@@ -239,10 +228,7 @@ def test_plain_classes_are_those_without_arrays() -> None:
         ),
         (lambda: LaserScan(ranges=[1.0, "x"]), r"field ranges\[1\] must be float type"),
         (lambda: LaserScan(ranges=np.zeros((2, 2))), "must have one dimension, not 2"),
-        (
-            lambda: message_class("sensor_msgs/Imu")(orientation_covariance=[0.0]),
-            "must have exactly 9 elements, not 1",
-        ),
+        (lambda: message_class("sensor_msgs/Imu")(orientation_covariance=[0.0]), "must have exactly 9 elements, not 1"),
         (
             lambda: PoseStamped(header=message_class("std_msgs/Header")(stamp=3.5)),
             r"field header.stamp must be of type Time",

@@ -23,9 +23,7 @@ def test_the_text_of_a_file_gives_the_type_of_the_file() -> None:
 
 
 def test_two_versions_of_a_type_do_not_connect() -> None:
-    old, new = (
-        define_message("my_robot/Battery", text) for text in ("float32 volts", "float32 volts\nbool full")
-    )
+    old, new = (define_message("my_robot/Battery", text) for text in ("float32 volts", "float32 volts\nbool full"))
     with Graph() as graph:
         graph.node("robot").publisher("battery", new)
         graph.node("laptop").subscriber("battery", old, print)

@@ -9,8 +9,7 @@ from rosmini.msgs import message_class
 from rosmini.msgs.define import define_action
 
 FIBONACCI = (
-    "#goal definition\nint32 order\n---\n#result definition\nint32[] sequence\n---\n"
-    "#feedback\nint32[] sequence\n"
+    "#goal definition\nint32 order\n---\n#result definition\nint32[] sequence\n---\n#feedback\nint32[] sequence\n"
 )
 
 

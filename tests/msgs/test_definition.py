@@ -45,9 +45,7 @@ def test_fields_are_resolved_and_keep_their_order() -> None:
 
 
 def test_constants_keep_what_ros_keeps() -> None:
-    spec = parse_message(
-        "string S = a # b = c  \nint8 I=-128 # low\nbool B=True\nfloat32 F = 1.50\n", "my_msgs/Y"
-    )
+    spec = parse_message("string S = a # b = c  \nint8 I=-128 # low\nbool B=True\nfloat32 F = 1.50\n", "my_msgs/Y")
     assert {c.name: (c.value, c.text) for c in spec.constants} == {
         "S": ("a # b = c", "a # b = c"),
         "I": (-128, "-128"),
@@ -147,9 +145,7 @@ def test_a_field_of_an_impossible_type_is_reported_with_its_line(
     assert caught.value.file is not None
 
 
-def test_a_file_that_is_not_utf8_is_reported_with_its_line(
-    make_registry: MakeRegistry, tmp_path: Path
-) -> None:
+def test_a_file_that_is_not_utf8_is_reported_with_its_line(make_registry: MakeRegistry, tmp_path: Path) -> None:
     reg = make_registry({"my_msgs/msg/Latin.msg": ""})
     (tmp_path / "my_msgs" / "msg" / "Latin.msg").write_bytes(b"int32 a\n# gr\xf6sse\n")
     with pytest.raises(DefinitionError, match="not UTF-8") as caught:

@@ -72,9 +72,7 @@ def test_star_imports_and_completion(hook: None) -> None:
         ("import rosmini.msgs.std_msg.msg", UnknownPackage, "did you mean std_msgs"),
     ],
 )
-def test_a_mistyped_import_names_the_nearest(
-    hook: None, code: str, error: type[Exception], words: str
-) -> None:
+def test_a_mistyped_import_names_the_nearest(hook: None, code: str, error: type[Exception], words: str) -> None:
     with pytest.raises(error, match=words) as caught:
         run(code)
     assert isinstance(caught.value, ImportError)
@@ -91,14 +89,9 @@ def test_other_imports_fail_as_ever(hook: None) -> None:
     assert not hasattr(std_msgs.msg, "lower_case")
 
 
-def test_a_workspace_on_the_package_path(
-    hook: None, workspace: Workspace, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_workspace_on_the_package_path(hook: None, workspace: Workspace, monkeypatch: pytest.MonkeyPatch) -> None:
     folder = workspace(
-        {
-            "own_msgs/msg/Pair.msg": "int32 a\nstd_msgs/String b\n",
-            "own_msgs/msg/Bad.msg": "int32 a\nint32 1\n",
-        }
+        {"own_msgs/msg/Pair.msg": "int32 a\nstd_msgs/String b\n", "own_msgs/msg/Bad.msg": "int32 a\nint32 1\n"}
     )
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(folder))
     # the package's folder in the working directory must not pass for a Python package without __init__.py
@@ -110,9 +103,7 @@ def test_a_workspace_on_the_package_path(
         run("from own_msgs.msg import Bad")
 
 
-def test_an_installed_module_is_not_shadowed_unless_asked(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_installed_module_is_not_shadowed_unless_asked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     package = tmp_path / "std_msgs"
     package.mkdir()
     (package / "__init__.py").write_text("", encoding="utf-8")
@@ -133,9 +124,7 @@ def test_an_installed_module_is_not_shadowed_unless_asked(
 def test_a_python_package_of_the_same_name_keeps_its_own_modules(
     hook: None, workspace: Workspace, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    folder = workspace(
-        {"both_things/msg/Pair.msg": "int32 a\n", "both_things/src/both_things/__init__.py": "X = 1\n"}
-    )
+    folder = workspace({"both_things/msg/Pair.msg": "int32 a\n", "both_things/src/both_things/__init__.py": "X = 1\n"})
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(folder))
     monkeypatch.syspath_prepend(str(folder / "both_things" / "src"))
     import both_things
@@ -148,8 +137,7 @@ def test_a_python_package_of_the_same_name_keeps_its_own_modules(
 
 def test_importing_the_package_is_light() -> None:
     code = (
-        "import sys, rosmini.msgs; "
-        "print([m for m in ('numpy', 'rosbags', 'yaml', 'catkin_pkg') if m in sys.modules])"
+        "import sys, rosmini.msgs; print([m for m in ('numpy', 'rosbags', 'yaml', 'catkin_pkg') if m in sys.modules])"
     )
     done = run_process([sys.executable, "-c", code], check=True)
     assert done.stdout.strip() == "[]"
@@ -159,10 +147,7 @@ def test_importing_the_package_is_light() -> None:
     ("statement", "words"),
     [
         ("from rosmini.msgs.std_msgs import String", r"write `from std_msgs.msg import String`"),
-        (
-            "import rosmini.msgs.std_msgs; rosmini.msgs.std_msgs.String",
-            r"write `from std_msgs.msg import String`",
-        ),
+        ("import rosmini.msgs.std_msgs; rosmini.msgs.std_msgs.String", r"write `from std_msgs.msg import String`"),
         ("import rosmini.msgs.std_msgs.String", r"write `from std_msgs.msg import String`"),
         ("from rosmini.msgs.turtlesim import Spawn", r"write `from turtlesim.srv import Spawn`"),
         ("from rosmini.msgs.std_msgs import Strin", r"did you mean String"),

@@ -34,21 +34,14 @@ def test_what_is_no_name_is_the_name_of_nothing(name: str) -> None:
                 make(kind, text)
     with pytest.raises(UnknownType, match="is no message type: it is written package/Type"):
         message_class(f"pkg/{name}")
-    for line in (
-        f"int32 {name}",
-        f"int32 {name}=1",
-        f"string {name}=1",
-        f"{name or '[]'} field",
-        f"pkg/{name} field",
-    ):
+    for line in (f"int32 {name}", f"int32 {name}=1", f"string {name}=1", f"{name or '[]'} field", f"pkg/{name} field"):
         with pytest.raises(DefinitionError):
             define_message("pkg/Type", line)
 
 
 def test_no_name_from_outside_is_in_generated_source() -> None:
     cls = define_message(
-        "pkg_name/TypeName",
-        "int32 number_name\nstring[] text_name\nHeader header_name\nuint8 CONSTANT_NAME=1\n",
+        "pkg_name/TypeName", "int32 number_name\nstring[] text_name\nHeader header_name\nuint8 CONSTANT_NAME=1\n"
     )
     for purpose in ("init", "freeze", "thaw", "thaw_numpy", "thaw_genpy_numpy", "encode", "read"):
         text = source(cls, purpose)
@@ -79,18 +72,8 @@ def nest(make_registry: Any, levels: int, text: str, last: str) -> Any:
         (0, "", "string[100000000] x\n", "field 'x' makes the message too large: its default value"),
         (0, "", "time[100000000] x\n", "field 'x' makes the message too large: its default value"),
         (9, "T[10] inner\n", "float64 x\n", "field 'inner' makes the message too large: its default value"),
-        (
-            40,
-            "T a\nT b\n",
-            "int8 x\n",
-            f"field 'b' makes the message too large: more than {MAX_FIELDS:,} fields",
-        ),
-        (
-            40,
-            "T a\nT b\n",
-            "",
-            f"field 'b' makes the message too large: more than {MAX_EMPTY} empty messages",
-        ),
+        (40, "T a\nT b\n", "int8 x\n", f"field 'b' makes the message too large: more than {MAX_FIELDS:,} fields"),
+        (40, "T a\nT b\n", "", f"field 'b' makes the message too large: more than {MAX_EMPTY} empty messages"),
         (5, "T[4] a\n", "", f"field 'a' makes the message too large: more than {MAX_EMPTY} empty messages"),
         (MAX_DEPTH + 1, "T a\n", "int8 x\n", f"more than {MAX_DEPTH} levels of messages in messages"),
         (200, "T a\n", "int8 x\n", f"more than {MAX_DEPTH} levels of messages in messages"),
@@ -116,9 +99,7 @@ def test_a_file_that_is_no_definition_is_not_read(make_registry: Any, tmp_path: 
     reg = make_registry(
         {"my_msgs/msg/Long.msg": "#" * (MAX_TEXT + 1), "my_msgs/msg/Dos.msg": "int32 a\r\nstring B=x\r\n"}
     )
-    with pytest.raises(
-        DefinitionError, match=r"Long\.msg: the file cannot be read: it has more than 1.0\d+ MB"
-    ):
+    with pytest.raises(DefinitionError, match=r"Long\.msg: the file cannot be read: it has more than 1.0\d+ MB"):
         reg.message_class("my_msgs/Long")
     assert reg.message_class("my_msgs/Dos").B == "x"
     assert reg.source.read("my_msgs", "msg", "../../Long") is None
@@ -135,9 +116,7 @@ def test_what_is_large_and_real_is_allowed(make_registry: Any) -> None:
 
 
 def test_empty_messages_on_the_wire_are_counted(make_registry: Any) -> None:
-    reg = make_registry(
-        {"my_msgs/msg/Many.msg": "std_msgs/Empty[] many\n", "my_msgs/msg/More.msg": "Many[] more\n"}
-    )
+    reg = make_registry({"my_msgs/msg/Many.msg": "std_msgs/Empty[] many\n", "my_msgs/msg/More.msg": "Many[] more\n"})
     many, more = reg.message_class("my_msgs/Many"), reg.message_class("my_msgs/More")
     assert len(many._decode(struct.pack("<I", MAX_EMPTY)).many) == MAX_EMPTY
     with pytest.raises(DeserializationError, match="field many claims"):

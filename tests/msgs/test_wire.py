@@ -59,9 +59,7 @@ def as_rosbags(store: Any, message: Any) -> Any:
             values[field.name] = time(sec=value.secs, nanosec=value.nsecs)
         elif field.base in cls._nested:
             several = field.size is not None
-            values[field.name] = (
-                [as_rosbags(store, v) for v in value] if several else as_rosbags(store, value)
-            )
+            values[field.name] = [as_rosbags(store, v) for v in value] if several else as_rosbags(store, value)
         elif field.size is not None and field.base != "string":
             kind = {"char": "uint8", "byte": "int8"}.get(field.base, field.base)
             values[field.name] = np.array(list(value), dtype=kind)

@@ -22,9 +22,7 @@ class Stage:
         self.logs = []
         node.subscriber("/rosout", message_class("rosgraph_msgs/Log"), self.logs.append)
         self.moving = TransformBroadcaster(node)
-        self.timer = node.timer(
-            0.05, lambda _: self.moving.send_rigid("map", "base_link", from_yaw(*self.pose))
-        )
+        self.timer = node.timer(0.05, lambda _: self.moving.send_rigid("map", "base_link", from_yaw(*self.pose)))
         self.maps = node.publisher("map", message_class("nav_msgs/OccupancyGrid"), latch=True)
         self.maps.expect_nobody()
         self.cells = np.full((30, 40), -1, dtype=np.int8)
@@ -36,11 +34,7 @@ class Stage:
         self.detour = None
         """For a goal (x, y) the pose where it is for the 3 s that the way takes, and in which it may be called off."""
         self.base = SimpleActionServer(
-            node,
-            "move_base",
-            message_class("move_base_msgs/MoveBaseAction"),
-            execute_cb=self._drive,
-            auto_start=False,
+            node, "move_base", message_class("move_base_msgs/MoveBaseAction"), execute_cb=self._drive, auto_start=False
         )
 
     def publish(self):

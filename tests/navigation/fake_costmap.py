@@ -38,9 +38,7 @@ def planner(cls, costs, name=None, **parameters):
         ("plan", "nav_msgs/Path"),
         ("potential", "sensor_msgs/PointCloud2" if name == "NavfnROS" else "nav_msgs/OccupancyGrid"),
     ):
-        watcher.subscriber(
-            f"/move_base/{name}/{topic}", message_class(kind), heard.setdefault(topic, []).append
-        )
+        watcher.subscriber(f"/move_base/{name}/{topic}", message_class(kind), heard.setdefault(topic, []).append)
     graph.run(0.1)
     return made, graph, heard
 

@@ -37,9 +37,7 @@ class LocalBench:
         self.costmap = FakeCostmap(self.node)
         self.planner = BaseLocalPlanner.create(plugin)
         self.planner.initialize(self.name, self.costmap.buffer, self.costmap)
-        self._odom = self.graph.node("robot").publisher(
-            "/odom", message_class("nav_msgs/Odometry"), queue_size=1
-        )
+        self._odom = self.graph.node("robot").publisher("/odom", message_class("nav_msgs/Odometry"), queue_size=1)
         self.graph.run(0.1)
 
     def drive(self, x=0.0, theta=0.0):

@@ -19,9 +19,7 @@ def test_paths_and_numbers(notebook: Notebook) -> None:
     )
 
 
-def test_cells_print_the_books_form_where_the_book_is_made(
-    notebook: Notebook, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_cells_print_the_books_form_where_the_book_is_made(notebook: Notebook, monkeypatch: pytest.MonkeyPatch) -> None:
     workspace = str(notebook.session.package.workspace)
     bad = "%%node bad.py\n1 / 0"
     assert workspace in notebook.ok(bad)
@@ -40,9 +38,7 @@ def test_so_do_the_errors_of_cells(notebook: Notebook, monkeypatch: pytest.Monke
     for line in lines:
         assert folder.removesuffix("/notebook") in notebook.fails(line)
     monkeypatch.setenv("ROSMINI_DISPLAY", "book")
-    for line, shown in zip(
-        lines, ("/src/notebook", "/src/notebook/launch/bad.launch:2", "/src"), strict=True
-    ):
+    for line, shown in zip(lines, ("/src/notebook", "/src/notebook/launch/bad.launch:2", "/src"), strict=True):
         written = notebook.fails(line)
         assert f"~/catkin_ws{shown}" in written
         assert folder not in written

@@ -82,9 +82,7 @@ def test_a_launch_file(notebook: Any) -> None:
 
 
 def test_what_a_launch_file_lacks_is_told(notebook: Any) -> None:
-    written = notebook.ok(
-        '%%launch a.launch\n<launch>\n  <include file="$(find nowhere)/x.launch"/>\n</launch>'
-    )
+    written = notebook.ok('%%launch a.launch\n<launch>\n  <include file="$(find nowhere)/x.launch"/>\n</launch>')
     assert written.startswith("WARNING: a.launch:3: ")
     assert "nowhere" in written
     written = notebook.ok("%%launch a.launch\n<launch>\n  <nod/>\n</launch>")

@@ -32,16 +32,11 @@ def test_a_folder_is_made_and_removed(tmp_path: Path, monkeypatch: pytest.Monkey
     other.remove()
 
 
-def test_what_a_killed_process_left_is_removed_by_the_next(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_a_killed_process_left_is_removed_by_the_next(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     (tmp_path / "rosmini-of-somebody-else").mkdir()
     with start(
-        [sys.executable, "-c", HOLD],
-        env={"TMPDIR": str(tmp_path), "TEMP": str(tmp_path)},
-        stdin=-1,
-        stdout=-1,
+        [sys.executable, "-c", HOLD], env={"TMPDIR": str(tmp_path), "TEMP": str(tmp_path)}, stdin=-1, stdout=-1
     ) as process:
         left = Path(process.stdout.readline().strip())
         first = TemporaryFolder()

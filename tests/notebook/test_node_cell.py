@@ -45,10 +45,7 @@ def test_a_cell_runs_to_where_it_blocks_and_no_time_passes(notebook: Notebook) -
 def test_names_stand_before_the_lines_when_several_run(notebook: Notebook) -> None:
     notebook.ok(f"%%node talker.py\n{TALKER}")
     assert notebook.ok(f"%%node listener.py\n{LISTENER}") == "[listener] heard hello\n"
-    assert (
-        notebook.ok("import rosmini; rosmini.wait(1)")
-        == "[talker] said hello at 1001.0\n[listener] heard hello\n"
-    )
+    assert notebook.ok("import rosmini; rosmini.wait(1)") == "[talker] said hello at 1001.0\n[listener] heard hello\n"
 
 
 def test_the_file_is_a_script_of_the_notebooks_package(notebook: Notebook) -> None:
@@ -106,9 +103,7 @@ def test_a_node_that_sleeps_on_after_its_end_is_killed_too_and_soon(notebook: No
     assert written == "deaf.py did not end within 3 s of Ctrl-C, and was killed.\n"
 
 
-def test_an_interrupt_while_the_earlier_run_ends_kills_it(
-    notebook: Notebook, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_interrupt_while_the_earlier_run_ends_kills_it(notebook: Notebook, monkeypatch: pytest.MonkeyPatch) -> None:
     notebook.ok(f"%%node talker.py\n{TALKER}")
     run = next(iter(notebook.session.runs._runs.values()))
 

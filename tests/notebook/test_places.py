@@ -21,9 +21,7 @@ def places(tmp_path: Path) -> Places:
 def test_paths_are_shown_as_on_a_robot(places: Places) -> None:
     share = PackageIndex().path("turtlebot3_description")
     text = f'{places.home}: {places.home / "ws" / "src"}, "{share}"; {places.home}-other'
-    assert places.shown(text) == (
-        f'~: ~/ws/src, "/opt/ros/noetic/share/turtlebot3_description"; {places.home}-other'
-    )
+    assert places.shown(text) == (f'~: ~/ws/src, "/opt/ros/noetic/share/turtlebot3_description"; {places.home}-other')
 
 
 def test_a_stream_can_be_dropped_after_what_is_behind_it(places: Places) -> None:

@@ -67,9 +67,5 @@ def test_what_is_refused(notebook: Any, tmp_path: Path) -> None:
 
 
 def test_imports() -> None:
-    assert imports("import os, rospy as r\nfrom tf.x import y\nfrom . import z\nimport a.b.c") == {
-        "rospy",
-        "tf",
-        "a",
-    }
+    assert imports("import os, rospy as r\nfrom tf.x import y\nfrom . import z\nimport a.b.c") == {"rospy", "tf", "a"}
     assert imports("this is no Python") == set()

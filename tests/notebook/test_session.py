@@ -117,9 +117,7 @@ def test_where_ros_is_installed_too_one_line_says_whose_rospy_it_is(
     monkeypatch.syspath_prepend(tmp_path)
     notebook = Notebook(shell, capsys)
     written = notebook.ok("%load_ext rosmini")
-    assert (
-        written == "rosmini: `import rospy` is rosmini's in this notebook, not that of the installed ROS.\n"
-    )
+    assert written == "rosmini: `import rospy` is rosmini's in this notebook, not that of the installed ROS.\n"
     assert notebook.ok("import rospy\nprint(rospy.__name__)") == "rosmini.ros.rospy\n"
 
 
@@ -179,10 +177,7 @@ def test_a_notebook_knows_why_and_what_if_and_all_again_is_the_same(notebook: No
     first = run_all()
     assert first[0].strip() == "/count to every subscriber: 50% lost (seed 1)"
     assert "20 messages, " in first[2]
-    assert (
-        "    driver.py, line 7, in on_count: orders.publish(message.data)\nbecause /driver got message"
-        in first[3]
-    )
+    assert "    driver.py, line 7, in on_count: orders.publish(message.data)\nbecause /driver got message" in first[3]
     assert "    counter.py, line 9: count.publish(number)" in first[3]
     assert "(lost)" in first[4]
     assert run_all() == first
@@ -213,8 +208,7 @@ def test_what_is_amiss_is_printed_in_order_with_the_rest(notebook: Any, capsys: 
 
 
 @pytest.mark.parametrize(
-    ("line", "words"),
-    [("rostopic list --bogus", "no such option"), ("rosmsg show std_msgs/Strng", "did you mean")],
+    ("line", "words"), [("rostopic list --bogus", "no such option"), ("rosmsg show std_msgs/Strng", "did you mean")]
 )
 def test_an_error_of_a_tool_stands_alone(notebook: Any, line: str, words: str) -> None:
     error, written = notebook.run(f"%{line}")
@@ -231,9 +225,7 @@ def test_the_tools_of_a_terminal_obey_the_masters_address(notebook: Any) -> None
         "ROS_MASTER_URI=http://127.0.0.1:11311 rosnode list\nexport ROS_MASTER_URI=robot\nrosnode list\n"
         "unset ROS_MASTER_URI\nrosnode list\n"
     )
-    refused = (
-        "ERROR: Unable to communicate with master!\nROS_MASTER_URI is http://robot:11311, and the only Master"
-    )
+    refused = "ERROR: Unable to communicate with master!\nROS_MASTER_URI is http://robot:11311, and the only Master"
     assert said.count(refused) == 2
     assert said.count("reaches is its own: `export ROS_MASTER_URI=http://localhost:11311`\n") == 2
     assert "$ rosmsg md5 std_msgs/String\n992ce8a1687cec8c8bd883ec73ca41d1\n" in said

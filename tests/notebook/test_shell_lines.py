@@ -20,15 +20,7 @@ def words(line: str, **variables: str) -> list[str]:
 
 def test_quotation_marks_and_variables() -> None:
     line = r"""echo "int64  $num" '$num' a\ b ${num}x "\$num" it's' # a comment"""
-    assert words(line.replace("it's'", "''"), num="7") == [
-        "echo",
-        "int64  7",
-        "$num",
-        "a b",
-        "7x",
-        "$num",
-        "",
-    ]
+    assert words(line.replace("it's'", "''"), num="7") == ["echo", "int64  7", "$num", "a b", "7x", "$num", ""]
     assert words("export NAME=\"two words\"'.'") == ["export", "NAME=two words."]
     assert words("echo a'b'#c;# d") == ["echo", "ab#c"]
     assert words("echo {a: 1} $unknown. 10%") == ["echo", "{a:", "1}", ".", "10%"]
@@ -36,12 +28,7 @@ def test_quotation_marks_and_variables() -> None:
 
 def test_operators() -> None:
     (line,) = parse("cd ws && catkin_make | grep built > log; ls || pwd &")
-    assert [(each.after, len(each.commands)) for each in line.pipelines] == [
-        ("", 1),
-        ("&&", 2),
-        (";", 1),
-        ("||", 1),
-    ]
+    assert [(each.after, len(each.commands)) for each in line.pipelines] == [("", 1), ("&&", 2), (";", 1), ("||", 1)]
     to = line.pipelines[1].commands[1].to
     assert to is not None
     assert (to.file, to.appends) == ("log", False)
@@ -84,8 +71,7 @@ def test_what_is_refused(text: str, what: str) -> None:
 
 @given(
     st.lists(
-        st.text(st.characters(exclude_characters="\n\r\x0b\x0c\x1c\x1d\x1e\x85\u2028\u2029"), min_size=1),
-        min_size=1,
+        st.text(st.characters(exclude_characters="\n\r\x0b\x0c\x1c\x1d\x1e\x85\u2028\u2029"), min_size=1), min_size=1
     )
 )
 def test_a_quoted_word_is_what_it_was(given_words: list[str]) -> None:

@@ -106,9 +106,7 @@ def test_the_walk_from_an_empty_folder_to_a_message(cell: Cell) -> None:
 
 
 def test_a_second_terminal_has_to_source_for_itself(cell: Cell) -> None:
-    cell(
-        "mkdir -p ws/src && cd ws/src && catkin_create_pkg my_pkg && cd .. && catkin_make && source devel/setup.bash"
-    )
+    cell("mkdir -p ws/src && cd ws/src && catkin_create_pkg my_pkg && cd .. && catkin_make && source devel/setup.bash")
     assert outputs(cell("rospack find my_pkg")) == ["~/ws/src/my_pkg"]
     there = outputs(cell("pwd\nls\nrospack find my_pkg\nprintenv", "--at robot"))
     assert there[:2] == ["~", "ws"]
@@ -122,9 +120,7 @@ def test_a_second_terminal_has_to_source_for_itself(cell: Cell) -> None:
 def test_an_unset_variable_of_the_machine_is_not_seen(cell: Cell, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("TURTLEBOT3_MODEL", "waffle")
     cell("unset TURTLEBOT3_MODEL")
-    cell(
-        "cat > one.launch << 'EOF'\n<launch><arg name='model' default='$(env TURTLEBOT3_MODEL)'/></launch>\nEOF"
-    )
+    cell("cat > one.launch << 'EOF'\n<launch><arg name='model' default='$(env TURTLEBOT3_MODEL)'/></launch>\nEOF")
     assert "'TURTLEBOT3_MODEL' is not set" in cell("roslaunch one.launch")
     assert os.environ["TURTLEBOT3_MODEL"] == "waffle"
 
@@ -132,13 +128,9 @@ def test_an_unset_variable_of_the_machine_is_not_seen(cell: Cell, monkeypatch: p
 def test_the_environment(cell: Cell) -> None:
     cell("export TURTLEBOT3_MODEL=waffle\nexport ROS_IP='10.0.0.7'")
     assert os.environ["TURTLEBOT3_MODEL"] == "waffle"
-    assert outputs(cell("printenv | grep -i turtle\nunset ROS_IP\nprintenv ROS_IP")) == [
-        "TURTLEBOT3_MODEL=waffle"
-    ]
+    assert outputs(cell("printenv | grep -i turtle\nunset ROS_IP\nprintenv ROS_IP")) == ["TURTLEBOT3_MODEL=waffle"]
     assert "ROS_IP" not in os.environ
-    assert outputs(
-        cell("A=~/maps B=2\necho $A/x ${B}\nROS_NAMESPACE=/robot1 printenv ROS_NAMESPACE\nprintenv -x")
-    ) == [
+    assert outputs(cell("A=~/maps B=2\necho $A/x ${B}\nROS_NAMESPACE=/robot1 printenv ROS_NAMESPACE\nprintenv -x")) == [
         "~/maps/x 2",
         "/robot1",
     ]
@@ -158,9 +150,7 @@ def test_files(cell: Cell) -> None:
 
 
 def test_an_error_is_printed_and_the_next_line_runs(cell: Cell) -> None:
-    assert outputs(
-        cell("cd nowhere && pwd\npwd\nmkdir a/b\nls nowhere || echo none\necho $?\nrostopic lst")
-    ) == [
+    assert outputs(cell("cd nowhere && pwd\npwd\nmkdir a/b\nls nowhere || echo none\necho $?\nrostopic lst")) == [
         "cd: nowhere: No such file or directory",
         "~",
         "mkdir: cannot create directory 'a/b': No such file or directory; mkdir -p makes both folders",
@@ -203,9 +193,7 @@ def test_a_new_one(cell: Cell) -> None:
     assert os.environ.get("TURTLEBOT3_MODEL") != "waffle"
 
 
-def test_a_tool_acts_on_the_notebooks_graph_and_its_output_goes_where_it_is_sent(
-    cell: Cell, graph: Graph
-) -> None:
+def test_a_tool_acts_on_the_notebooks_graph_and_its_output_goes_where_it_is_sent(cell: Cell, graph: Graph) -> None:
     graph.node("talker").set_param("~rate", 5)
     assert outputs(cell("rosnode list\nrosnode list | grep talk > nodes\ncat nodes")) == [
         "/rosout", "/talker", "/talker",

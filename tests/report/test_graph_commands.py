@@ -122,9 +122,7 @@ def test_a_command_line_of_the_report_works(shell: dict[str, str], line: str, pa
 
 
 @pytest.mark.parametrize(("line", "pattern"), MEASURES, ids=[line for line, _ in MEASURES])
-def test_a_measurement_of_the_report_says_what_the_talker_does(
-    shell: dict[str, str], line: str, pattern: str
-) -> None:
+def test_a_measurement_of_the_report_says_what_the_talker_does(shell: dict[str, str], line: str, pattern: str) -> None:
     """A busy machine may leave the talker or the tool no time, so it is asked until both had their share."""
 
     def says() -> bool:
@@ -135,12 +133,8 @@ def test_a_measurement_of_the_report_says_what_the_talker_does(
     wait_until(says, pattern)
 
 
-@pytest.mark.parametrize(
-    ("line", "text"), NAMES_THE_RIGHT_FORM, ids=[line for line, _ in NAMES_THE_RIGHT_FORM]
-)
-def test_a_slip_of_the_report_is_answered_with_the_right_form(
-    shell: dict[str, str], line: str, text: str
-) -> None:
+@pytest.mark.parametrize(("line", "text"), NAMES_THE_RIGHT_FORM, ids=[line for line, _ in NAMES_THE_RIGHT_FORM])
+def test_a_slip_of_the_report_is_answered_with_the_right_form(shell: dict[str, str], line: str, text: str) -> None:
     done = run([*ROSMINI, *line.split()], env=shell)
     assert done.returncode != 0
     assert text in done.stderr

@@ -55,10 +55,7 @@ def test_every_line_of_the_report_is_typed_or_says_what_it_waits_for() -> None:
 TURTLEBOT3 = (
     ("turtlebot3_gazebo turtlebot3_world.launch", "/gazebo"),
     ("turtlebot3_navigation move_base.launch", "/move_base"),
-    (
-        "turtlebot3_slam turtlebot3_slam.launch slam_methods:=gmapping open_rviz:=false",
-        "/turtlebot3_slam_gmapping",
-    ),
+    ("turtlebot3_slam turtlebot3_slam.launch slam_methods:=gmapping open_rviz:=false", "/turtlebot3_slam_gmapping"),
     ("turtlebot3_slam turtlebot3_frontier_exploration.launch open_rviz:=false", "/explore_server"),
 )
 """9.5: launch files, and a node by which one sees that each has begun."""
@@ -92,9 +89,7 @@ def test_pictures_are_written_as_pages(shell: dict[str, str], tmp_path: Path) ->
     done = run([*ROSMINI, "rqt_graph", "-o", str(tmp_path / "graph.txt")], env=shell)
     assert done.returncode == 0, done.stderr
     assert "/talker" in (tmp_path / "graph.txt").read_text(encoding="utf-8")
-    recorded = run(
-        [*ROSMINI, "rosbag", "record", "/chatter", "-O", "house", "-l", "3"], env=shell, cwd=tmp_path
-    )
+    recorded = run([*ROSMINI, "rosbag", "record", "/chatter", "-O", "house", "-l", "3"], env=shell, cwd=tmp_path)
     assert (tmp_path / "house.bag").is_file(), recorded.stderr
     done = run([*ROSMINI, "rqt_bag", "house.bag", "-o", "bag.txt"], env=shell, cwd=tmp_path)
     assert done.returncode == 0, done.stderr

@@ -13,9 +13,7 @@ from rosmini.core.packages import assets_dir
 STAGE = "%roslaunch navigation_stage move_base_gmapping_5cm.launch"
 
 
-def test_a_goal_and_exploration_on_stage(
-    notebook: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_goal_and_exploration_on_stage(notebook: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """9.3 and 9.4: the launch files, the nodes that they start twice, the map that is saved, and the slips."""
     monkeypatch.chdir(tmp_path)
     notebook.ok("%load_ext rosmini")

@@ -20,14 +20,7 @@ class Bell(Device):
     """Notes when it rings."""
 
     def __init__(
-        self,
-        host: Host,
-        name: str,
-        rate: float,
-        *,
-        order: int = 100,
-        sleepy: bool = False,
-        action: Any = None,
+        self, host: Host, name: str, rate: float, *, order: int = 100, sleepy: bool = False, action: Any = None
     ) -> None:
         super().__init__(host, name, rate)
         self.action = action

@@ -28,14 +28,7 @@ THINGS = [
 WALKING = World(
     "walk",
     [
-        Obstacle(
-            "walker",
-            Cylinder(0.1),
-            (2.0, 2.0, 0.0),
-            0.5,
-            "orange",
-            motion=Walk(((2.0, 2.0), (2.0, 0.0)), 0.5),
-        ),
+        Obstacle("walker", Cylinder(0.1), (2.0, 2.0, 0.0), 0.5, "orange", motion=Walk(((2.0, 2.0), (2.0, 0.0)), 0.5)),
         Obstacle("crate", Box(0.3, 0.3), (0.5, 0.0, 0.0), 0.3, mass=0.2),
         Obstacle("rock", Box(0.3, 0.3), (-2.0, 0.0, 0.0), 0.3),
     ],

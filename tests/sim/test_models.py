@@ -26,10 +26,7 @@ def test_the_burger_is_the_published_one():
 
 def test_the_footprint_is_counter_clockwise_and_reaches_as_far_as_it_says():
     corners = BURGER.footprint
-    area = (
-        sum(ax * by - bx * ay for (ax, ay), (bx, by) in zip(corners, corners[1:] + corners[:1], strict=True))
-        / 2
-    )
+    area = sum(ax * by - bx * ay for (ax, ay), (bx, by) in zip(corners, corners[1:] + corners[:1], strict=True)) / 2
     assert area == pytest.approx(0.146 * 0.21)
     assert BURGER.reach == pytest.approx(0.105 * 2**0.5)
 
@@ -113,8 +110,7 @@ def test_an_impossible_laser_is_named(change):
 
 
 @pytest.mark.parametrize(
-    "change",
-    [{"width": 0}, {"width": 10**5, "height": 10**5}, {"near": 0.0}, {"far": 0.01}, {"horizontal_fov": 4.0}],
+    "change", [{"width": 0}, {"width": 10**5, "height": 10**5}, {"near": 0.0}, {"far": 0.01}, {"horizontal_fov": 4.0}]
 )
 def test_an_impossible_camera_is_named(change):
     with pytest.raises(ModelError, match="the camera 'camera' is not possible"):

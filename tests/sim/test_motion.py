@@ -210,9 +210,7 @@ def test_a_walker_whose_way_is_free_is_not_held_by_who_pushes_it_from_behind():
     assert engine.robots["burger"].pose[0] == pytest.approx(2.0 - 0.2 - 0.041, abs=0.05)
 
 
-LEAF = Obstacle(
-    "door", Box(0.9, 0.05), motion=Door(hinge=(-0.45, 0.0), closed=1.0, moving=2.0, open=2.0), height=2.0
-)
+LEAF = Obstacle("door", Box(0.9, 0.05), motion=Door(hinge=(-0.45, 0.0), closed=1.0, moving=2.0, open=2.0), height=2.0)
 
 
 def test_a_door_does_not_close_on_a_robot_but_opens_again():
@@ -266,9 +264,7 @@ def watched(engine: Engine, seconds: float) -> list[tuple[float, float]]:
     return found
 
 
-@given(
-    st.floats(0.05, 30.0), st.floats(0.1, 4.0), st.floats(0.0, 5.0), st.floats(0.0, 5.0), st.floats(0.0, 9.0)
-)
+@given(st.floats(0.05, 30.0), st.floats(0.1, 4.0), st.floats(0.0, 5.0), st.floats(0.0, 5.0), st.floats(0.0, 9.0))
 def test_a_door_that_turns_back_is_where_it_was_and_moves_the_other_way(t, moving, stays, closed, phase):
     door = Door(moving=moving, open=stays, closed=closed, phase=phase)
     back = door.turned_back(t)

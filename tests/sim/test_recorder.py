@@ -144,9 +144,7 @@ def test_scans_begin_ahead_and_what_is_no_hit_or_too_near_is_infinite(graph, rob
     run = recorder.recording()
     inf = math.inf
     np.testing.assert_allclose(run.scan_times, [0, 0.2])
-    np.testing.assert_allclose(
-        run.scans, [[inf, -inf, 0.5, 3.5, inf, inf, inf, -inf], [5, 6, 7, 8, 1, 2, 3, 4]]
-    )
+    np.testing.assert_allclose(run.scans, [[inf, -inf, 0.5, 3.5, inf, inf, inf, -inf], [5, 6, 7, 8, 1, 2, 3, 4]])
 
 
 @pytest.mark.parametrize(
@@ -174,8 +172,7 @@ def test_an_increment_that_is_one_beam_off_is_a_whole_turn_too(graph, robot, rec
 
 def test_with_nothing_recorded_the_error_says_what_to_run(graph, recorder):
     with pytest.raises(
-        RecordingError,
-        match=r"no message on /base_pose_ground_truth, nobody publishes it; .*/odom.*graph.run\(",
+        RecordingError, match=r"no message on /base_pose_ground_truth, nobody publishes it; .*/odom.*graph.run\("
     ):
         recorder.recording()
     robot = FakeRobot(graph)
@@ -235,9 +232,7 @@ def test_a_robot_in_a_namespace_is_recorded_there(graph):
     graph.run(0.1)
     assert recorder.recording().truth.tolist() == [[1, 0, 0]]
     assert recorder.node.name == "/robot1/recorder"
-    assert (
-        repr(recorder) == "<Recorder /robot1/recorder: 1 base_pose_ground_truth, 1 odom, 0 scan, 0 cmd_vel>"
-    )
+    assert repr(recorder) == "<Recorder /robot1/recorder: 1 base_pose_ground_truth, 1 odom, 0 scan, 0 cmd_vel>"
 
 
 def test_a_recorder_has_to_know_world_and_robot(graph):
@@ -252,9 +247,7 @@ def test_without_a_simulator_it_finds_the_one_that_runs(graph):
     graph.run(1.0)
     assert recorder.recording().world.name == "room"
     rosrun("rosmini_sim", "simulator", "__ns:=other", graph=graph).instance()
-    with pytest.raises(
-        RecordingError, match=r"2 simulations run in this graph \(/simulator, /other/simulator\)"
-    ):
+    with pytest.raises(RecordingError, match=r"2 simulations run in this graph \(/simulator, /other/simulator\)"):
         Recorder(graph, name="second")
 
 
@@ -296,14 +289,10 @@ def test_a_robot_without_a_laser_is_recorded_without_scans(graph, tmp_path):
 
 @pytest.mark.parametrize("changes", [{"angle_min": -0.7}, {"angle_increment": 0.8}])
 def test_a_fan_that_looks_elsewhere_than_the_laser_is_refused(changes):
-    scan = LaserScan(
-        angle_min=-math.pi / 4, angle_increment=math.pi / 4, range_max=5.0, ranges=[1.0, 2.0, 3.0]
-    )
+    scan = LaserScan(angle_min=-math.pi / 4, angle_increment=math.pi / 4, range_max=5.0, ranges=[1.0, 2.0, 3.0])
     lidar = replace(ROBOT.laser, beams=3, angle_min=-math.pi / 4, angle_max=math.pi / 4)
     assert aligned(scan, lidar).tolist() == [1.0, 2.0, 3.0]
     for name, value in changes.items():
         setattr(scan, name, value)
-    with pytest.raises(
-        RecordingError, match=r"but the .* begins at -0\.7854 rad and goes on by 0\.785398 rad"
-    ):
+    with pytest.raises(RecordingError, match=r"but the .* begins at -0\.7854 rad and goes on by 0\.785398 rad"):
         aligned(scan, lidar)

@@ -28,9 +28,7 @@ NODES = ("simulator", "stageros", "gzserver")
 ROBOT = """position( size [0.35 0.35 0.25] localization "odom" odom_error [0.03 0.03 0 0.05]
   ranger( sensor( range [0 9] fov 270 samples 91 noise [0.05 0.01 0] ) ) camera( resolution [6 4] ) pose [%s 0 0 0] )
 """
-STAGE = (
-    ROBOT % 0 + ROBOT % 2 + 'model( name "box" gripper_return 1 mass 2 size [0.3 0.3 0.3] pose [0.5 0 0 0] )'
-)
+STAGE = ROBOT % 0 + ROBOT % 2 + 'model( name "box" gripper_return 1 mass 2 size [0.3 0.3 0.3] pose [0.5 0 0 0] )'
 NOISY = LASER.replace("<range>", "<noise><type>gaussian</type><stddev>0.05</stddev></noise><range>")
 TRUTH = """<gazebo><plugin name="truth" filename="libgazebo_ros_p3d.so"><bodyName>base_footprint</bodyName>
   <topicName>truth</topicName><gaussianNoise>0.02</gaussianNoise><updateRate>20</updateRate></plugin></gazebo>"""
@@ -133,9 +131,7 @@ def test_every_message_is_the_same_after_restoring(graph: Graph, tmp_path: Path,
 
 
 @pytest.mark.parametrize("kind", NODES)
-def test_what_is_on_its_way_when_it_is_saved_belongs_to_the_graph(
-    graph: Graph, tmp_path: Path, kind: str
-) -> None:
+def test_what_is_on_its_way_when_it_is_saved_belongs_to_the_graph(graph: Graph, tmp_path: Path, kind: str) -> None:
     there = Bench(graph, kind, tmp_path)
     start = graph.scheduler.now_ns() - round(there.sim.host.now * SECOND)
     there.drive(0.9)
@@ -170,9 +166,7 @@ def test_what_is_no_state_of_it_is_refused(graph: Graph, tmp_path: Path, kind: s
     graph.run(0.5)
     now = there.sim.host.now
     for state in (None, 3, other, there.sim.save().__dict__):
-        with pytest.raises(
-            RosminiError, match=r"can only be restored from|other devices|a state of the world"
-        ):
+        with pytest.raises(RosminiError, match=r"can only be restored from|other devices|a state of the world"):
             there.sim.restore(state)
     assert there.sim.host.now == now
     there.heard = []
@@ -182,10 +176,7 @@ def test_what_is_no_state_of_it_is_refused(graph: Graph, tmp_path: Path, kind: s
 
 def test_a_state_of_another_world_is_refused(graph: Graph, tmp_path: Path) -> None:
     state = GazeboServer(graph.node("gazebo"), "room").save()
-    with (
-        Graph() as other,
-        pytest.raises(RosminiError, match="'room' cannot be restored in the world 'empty'"),
-    ):
+    with Graph() as other, pytest.raises(RosminiError, match="'room' cannot be restored in the world 'empty'"):
         GazeboServer(other.node("gazebo"), "empty").restore(state)
     for name, text in (("one", STAGE), ("two", STAGE)):
         (tmp_path / f"{name}.world").write_text(text, encoding="utf-8")

@@ -40,9 +40,7 @@ def start(graph: Graph, world: World | str = "empty", **parameters: Any) -> Simu
 class Ears:
     """Hears robots, and commands them."""
 
-    def __init__(
-        self, graph: Graph, *robots: str, name: str = "ears", tf: bool = True, topics: Any = TOPICS
-    ) -> None:
+    def __init__(self, graph: Graph, *robots: str, name: str = "ears", tf: bool = True, topics: Any = TOPICS) -> None:
         self.graph = graph
         self.node = graph.node(name)
         self.heard: dict[str, list[Any]] = defaultdict(list)
@@ -168,10 +166,7 @@ def test_a_robot_comes_while_the_others_drive(graph):
     graph.run(1.0)
     assert len(ears.heard["late/odom"]) >= 29
     assert ears.heard["late/odom"][-1].header.stamp == ears.heard["odom"][-1].header.stamp
-    assert [t.child_frame_id for t in ears.heard["tf"][-1].transforms] == [
-        "base_footprint",
-        "late/base_footprint",
-    ]
+    assert [t.child_frame_id for t in ears.heard["tf"][-1].transforms] == ["base_footprint", "late/base_footprint"]
     ears.command("late", 0.2)
     graph.run(1.0)
     assert simulator.truth("late")[0] == pytest.approx(3.0 + 0.18 * math.cos(1.0), abs=2e-3)
@@ -214,9 +209,7 @@ def test_a_deleted_robot_leaves_while_it_moves(graph):
     assert len(ears.heard["gone/odom"]) == count
     assert [t.child_frame_id for t in ears.heard["tf"][-1].transforms] == ["base_footprint"]
     published = [topic for topic, _ in graph.master.getSystemState("/test")[2][0]]
-    assert [topic for topic in published if topic.startswith("/gone/")] == [
-        "/gone/cmd_vel"
-    ]  # the driver's own
+    assert [topic for topic in published if topic.startswith("/gone/")] == ["/gone/cmd_vel"]  # the driver's own
     assert simulator.truth()[0] > 0.15
     with pytest.raises(RobotGone, match="no robot 'gone'"):
         simulator.truth("gone")
@@ -348,9 +341,7 @@ def test_a_state_of_another_world_is_refused(graph):
     state = start(graph).save()
     with Graph() as other:
         simulator = start(other, world="arena")
-        with pytest.raises(
-            RosminiError, match="state of the world 'empty' cannot be restored in the world 'arena'"
-        ):
+        with pytest.raises(RosminiError, match="state of the world 'empty' cannot be restored in the world 'arena'"):
             simulator.restore(state)
 
 

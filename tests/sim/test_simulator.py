@@ -228,11 +228,7 @@ def test_without_a_timeout_a_command_holds(graph):
 
 @pytest.mark.parametrize(
     ("v", "w", "field"),
-    [
-        (math.nan, 0.0, "linear.x = nan"),
-        (0.1, math.inf, "angular.z = inf"),
-        (-math.inf, 0.1, "linear.x = -inf"),
-    ],
+    [(math.nan, 0.0, "linear.x = nan"), (0.1, math.inf, "angular.z = inf"), (-math.inf, 0.1, "linear.x = -inf")],
 )
 def test_a_command_that_is_no_number_stops_the_robot_with_one_warning(graph, capsys, v, w, field):
     simulator = start(graph, world="empty")
@@ -267,8 +263,7 @@ def drive_with_noise(
         driver.go(2.0, 0.2, 0.3)
         driver.go(1.0, -0.1, 1.0)
         return {
-            topic: [type(message)._encode(message) for message in messages]
-            for topic, messages in driver.heard.items()
+            topic: [type(message)._encode(message) for message in messages] for topic, messages in driver.heard.items()
         }
 
 
@@ -316,9 +311,7 @@ def test_odometry_drifts_with_noise_and_only_then(graph):
 
 
 def test_the_parameters_choose_the_world_and_the_place(graph):
-    simulator = start(
-        graph, parameters={"world": "arena", "x": 1.0, "y": -0.5, "yaw": 1.5, "model": "burger"}
-    )
+    simulator = start(graph, parameters={"world": "arena", "x": 1.0, "y": -0.5, "yaw": 1.5, "model": "burger"})
     assert (simulator.world.name, simulator.model) == ("arena", BURGER)
     assert simulator.truth() == (1.0, -0.5, 1.5)
 
@@ -346,10 +339,7 @@ def test_what_cannot_be_started_says_why_and_leaves_nothing(graph, parameters, e
     with pytest.raises(error, match=message):
         start(graph, parameters=parameters)
     topics = [name for name, _ in graph.master.getSystemState("/test")[2][0]]
-    assert set(topics) <= {
-        "/rosout",
-        *(name for name, _ in before),
-    }  # that of the node, which was there before
+    assert set(topics) <= {"/rosout", *(name for name, _ in before)}  # that of the node, which was there before
     graph.run(1.0)
 
 

@@ -39,9 +39,7 @@ def test_the_bare_names_work_in_bash(shell: Any) -> None:
     done = shell("rosmsg show std_msgs/String; rosnode list; echo status $?")
     assert done.stdout == "string data\n\nstatus 1\n"
     assert "rosmini roscore" in done.stderr
-    assert shell("rosmsg md5 'std_msgs/Nothing like it'").stderr.startswith(
-        "Cannot locate [std_msgs/Nothing like it]"
-    )
+    assert shell("rosmsg md5 'std_msgs/Nothing like it'").stderr.startswith("Cannot locate [std_msgs/Nothing like it]")
 
 
 @bash
@@ -121,9 +119,7 @@ def test_roscd_changes_the_folder(shell: Any, tmp_path: Path) -> None:
     assert done.stdout.splitlines() == [str(package), "1", str(package)]
 
 
-def test_each_shell_has_its_lines(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_each_shell_has_its_lines(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     for name in aliases.SHELLS:
         assert cli.main(["aliases", name]) == 0
         said = capsys.readouterr().out

@@ -32,9 +32,7 @@ def told(error: BaseException | None, capsys: pytest.CaptureFixture[str]) -> str
 def test_one_finding_is_printed_and_no_time_passes(graph: Graph, capsys: pytest.CaptureFixture[str]) -> None:
     graph.node("talker").publisher("chatter", String)
     before, nodes = graph.now(), list(graph.nodes)
-    assert told(ERROR, capsys) == (
-        "roswtf: ERROR Nothing in the graph is called /chater; did you mean /chatter?\n"
-    )
+    assert told(ERROR, capsys) == ("roswtf: ERROR Nothing in the graph is called /chater; did you mean /chatter?\n")
     assert graph.now() == before
     assert list(graph.nodes) == nodes
 

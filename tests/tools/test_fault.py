@@ -31,9 +31,9 @@ def fault(graph: Graph, line: str) -> str:
 
 def test_a_topic_is_disturbed_listed_and_cleared(graph: Graph) -> None:
     before = graph.now()
-    assert fault(
-        graph, "chatter --lose 0.5 --double 0.1 --delay 0.1 --jitter 0.2 --seed 3 --to listener"
-    ) == ("/chatter to /listener: 50% lost, 10% doubled, 0.1 to 0.3 s late (seed 3)")
+    assert fault(graph, "chatter --lose 0.5 --double 0.1 --delay 0.1 --jitter 0.2 --seed 3 --to listener") == (
+        "/chatter to /listener: 50% lost, 10% doubled, 0.1 to 0.3 s late (seed 3)"
+    )
     assert graph.now() == before
     graph.run(2.05)
     line = fault(graph, "list")

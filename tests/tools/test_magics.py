@@ -45,10 +45,7 @@ def test_words_are_split_as_a_shell_splits_them() -> None:
 
 
 def test_yaml_stays_what_it_is() -> None:
-    assert (
-        split("pub /x a/B '{linear: {x: 0.2}, s: \"{topic}\"}'", topic=1)[-1]
-        == '{linear: {x: 0.2}, s: "{topic}"}'
-    )
+    assert split("pub /x a/B '{linear: {x: 0.2}, s: \"{topic}\"}'", topic=1)[-1] == '{linear: {x: 0.2}, s: "{topic}"}'
 
 
 def test_variables_are_replaced_and_stay_one_word() -> None:

@@ -84,9 +84,7 @@ def test_what_it_does_not_have(bag, capsys):
     assert "a command of the original tool" in run(capsys, "encrypt", "t.bag")[2]
     assert run(capsys, "play")[0] == 2
     assert "--repeat-latched" in run(capsys, "record", "-h")[1]
-    assert run(capsys, "record", "-O", "x")[2].endswith(
-        "You must specify a topic name or else use the '-a' option.\n"
-    )
+    assert run(capsys, "record", "-O", "x")[2].endswith("You must specify a topic name or else use the '-a' option.\n")
 
 
 SCRIPT = """
@@ -132,11 +130,7 @@ def test_playing_to_a_script_and_recording_it(bag):
         (("filter", "-p", "m.", "t.bag", "f.bag", "True"), 1, "ERROR: "),
         (("filter", "listener.py", "f.bag", "True"), 1, "ERROR reading listener.py: "),
         (("filter", "t.bag", "nowhere/f.bag", "True"), 1, "ERROR writing nowhere/f.bag.part: No such file"),
-        (
-            ("compress", "--output-dir", "out", "t.bag"),
-            1,
-            "ERROR writing to out/t.bag: there is no folder out",
-        ),
+        (("compress", "--output-dir", "out", "t.bag"), 1, "ERROR writing to out/t.bag: there is no folder out"),
         (("decrypt", "t.bag"), 2, "a bag that GnuPG has encrypted is read by a real ROS with its keys"),
         (("compress",), 2, "You must specify at least one bag file."),
         (("merge", "m.bag"), 2, "You must specify an out bag and at least one in bag."),

@@ -49,9 +49,7 @@ def port() -> int:
 
 
 @pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
-def test_it_prints_what_roscore_prints_and_ends_in_order(
-    port: int, tmp_path: Path, ending: signal.Signals
-) -> None:
+def test_it_prints_what_roscore_prints_and_ends_in_order(port: int, tmp_path: Path, ending: signal.Signals) -> None:
     output = tmp_path / "output"
     with roscore(port, output=output) as process:
         wait_until(lambda: "started core service" in output.read_text(encoding="utf-8"), "/rosout", process)
@@ -97,9 +95,7 @@ def test_it_prints_what_roscore_prints_and_ends_in_order(
 
 def test_the_port_is_that_of_the_master_s_address(port: int, tmp_path: Path) -> None:
     uri = f"http://127.0.0.1:{port}"
-    with start(
-        [*ROSCORE, "--core"], env=environment(ROS_MASTER_URI=uri, ROS_LOG_DIR=str(tmp_path))
-    ) as process:
+    with start([*ROSCORE, "--core"], env=environment(ROS_MASTER_URI=uri, ROS_LOG_DIR=str(tmp_path))) as process:
         wait_until(lambda: listens(port), "roscore", process)
         assert ask(port, "getSystemState")[2] == [[], [], []]
         run_id = ask(port, "getParam", "/run_id")[2]
@@ -155,9 +151,7 @@ def test_with_v_it_shows_what_is_registered_and_set(port: int, tmp_path: Path) -
         ask(port, "lookupNode", "/test")
         ask(port, "setParam", "", 5)
         ask(port, "unregisterPublisher", "/chatter", "http://127.0.0.1:1/")
-        shown = [
-            line for line in output.read_text(encoding="utf-8").splitlines() if line[:1] in "+-" and line
-        ]
+        shown = [line for line in output.read_text(encoding="utf-8").splitlines() if line[:1] in "+-" and line]
         assert shown == [
             "+PUB [/chatter] /test http://127.0.0.1:1/",
             "+SERVICE [/go] /test http://127.0.0.1:1/",
@@ -180,11 +174,7 @@ def test_it_is_reached_at_the_address_that_was_given(port: int, tmp_path: Path) 
     [
         (["-p", "0"], {}, "not the number of a port"),
         (["chatter"], {}, "roscore takes no argument 'chatter'"),
-        (
-            [],
-            {"ROS_MASTER_URI": "localhost"},
-            "ROS_MASTER_URI is 'localhost', which is no address of a Master",
-        ),
+        ([], {"ROS_MASTER_URI": "localhost"}, "ROS_MASTER_URI is 'localhost', which is no address of a Master"),
         ([], {"ROS_IP": "0.0.0.0"}, "ROS_IP is 0.0.0.0, which nobody can connect to"),
         (["-p", "1234"], {"ROS_IP": "127.0.0.1:5"}, "ROS_IP is '127.0.0.1:5'"),
     ],

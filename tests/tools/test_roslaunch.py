@@ -105,11 +105,7 @@ class TestAnswers:
 
     def test_tree(self, capsys: Any) -> None:
         lines = self.said(capsys, "--tree", "speaking", "demo.launch")[1].splitlines()
-        assert lines[:3] == [
-            "3 nodes, 7 parameters, 1 file",
-            "demo.launch",
-            "  /robot1/pub1 (speaking/talker.py)",
-        ]
+        assert lines[:3] == ["3 nodes, 7 parameters, 1 file", "demo.launch", "  /robot1/pub1 (speaking/talker.py)"]
 
     def test_check_names_all_that_is_missing(self, capsys: Any) -> None:
         status, out, _ = self.said(capsys, "--check", "speaking", "incomplete.launch")
@@ -306,9 +302,7 @@ def test_with_log_the_nodes_of_a_notebook_show_only_warnings(source: Path, capsy
     )
     (source / "speaking" / "scripts" / "worried.py").chmod(0o755)
     launch = source / "speaking" / "launch" / "worried.launch"
-    launch.write_text(
-        '<launch><node pkg="speaking" type="worried.py" name="worried"/></launch>', encoding="utf-8"
-    )
+    launch.write_text('<launch><node pkg="speaking" type="worried.py" name="worried"/></launch>', encoding="utf-8")
     with Graph(strict=False) as graph:
         result: Any = TOOL.run("--log", "speaking", "worried.launch", "--duration", "1", graph=graph)
         result.launch.stop()

@@ -94,10 +94,7 @@ def test_the_definition_in_a_bag(tmp_path: Path) -> None:
 
 def test_an_md5_sum_of_nothing() -> None:
     assert run("rosmsg md5 nope/Nope").complaints[0] == "Cannot locate [nope/Nope]"
-    assert run("rosmsg md5 Twits").complaints == (
-        "No messages matching the name [Twits]",
-        "did you mean Twist?",
-    )
+    assert run("rosmsg md5 Twits").complaints == ("No messages matching the name [Twits]", "did you mean Twist?")
 
 
 def test_each_verb_has_help_with_an_example(capsys: pytest.CaptureFixture[str]) -> None:

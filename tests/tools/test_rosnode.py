@@ -118,10 +118,7 @@ def test_the_results_are_data(graph: Graph) -> None:
     graph.node("talker", namespace="/robot1")
     assert run(graph, "list", "/robot1").names == ("/robot1/talker",)
     (about,) = run(graph, "info", "talker").nodes
-    assert about.description.publications == (
-        ("/chatter", "std_msgs/String"),
-        ("/rosout", "rosgraph_msgs/Log"),
-    )
+    assert about.description.publications == (("/chatter", "std_msgs/String"), ("/rosout", "rosgraph_msgs/Log"))
     assert [(link.topic, link.to, link.direction) for link in about.contact.links] == [
         ("/rosout", "/rosout", "outbound"), ("/chatter", "/listener", "outbound"),
     ]  # fmt: skip
@@ -140,9 +137,7 @@ def test_names_are_in_the_namespace_of_the_environment(graph: Graph, monkeypatch
 
 
 def test_a_machine_that_nobody_knows(graph: Graph) -> None:
-    with pytest.raises(
-        VerbError, match=r"cannot resolve machine name \[no host\] to address\nnodes run on rosmini"
-    ):
+    with pytest.raises(VerbError, match=r"cannot resolve machine name \[no host\] to address\nnodes run on rosmini"):
         run(graph, "machine", "no host")
 
 
@@ -250,9 +245,7 @@ def test_ctrl_c_ends_pinging(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> N
     clock = SimpleNamespace(now_ns=graph.scheduler.now_ns, sleep_until=interrupt)
     peers: Any = SimpleNamespace(ask_as=graph.ask_as, transport=graph.transport, scheduler=clock)
     found = TOOL.find("ping")
-    done = found.act(
-        found.parser().parse(["/talker"]), Call(peers, lambda _: None, read_line=sys.stdin.readline)
-    )
+    done = found.act(found.parser().parse(["/talker"]), Call(peers, lambda _: None, read_line=sys.stdin.readline))
     assert vars(done)["times"] == {"/talker": (0.0,)}
 
 

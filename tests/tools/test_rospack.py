@@ -82,9 +82,7 @@ def test_a_tree_that_grows_without_end_is_cut(workspace: Path) -> None:
     manifest = (workspace / "gamma" / "package.xml").read_text(encoding="utf-8")
     for i in range(40):  # 2 ** 20 ways lead from the first to the last
         layer = i // 2
-        needs = (
-            "".join(f"<depend>p{2 * (layer + 1) + side}</depend>" for side in (0, 1)) if layer < 19 else ""
-        )
+        needs = "".join(f"<depend>p{2 * (layer + 1) + side}</depend>" for side in (0, 1)) if layer < 19 else ""
         folder = workspace / f"p{i}"
         folder.mkdir()
         text = manifest.replace("gamma", f"p{i}").replace("</package>", f"{needs}</package>")
@@ -105,9 +103,7 @@ def test_profile_says_where_the_time_goes(workspace: Path) -> None:
     assert times == sorted(times, reverse=True)
 
 
-def test_the_command_prints_and_returns_the_status(
-    workspace: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_command_prints_and_returns_the_status(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["rospack", "find", "alpha"]) == 0
     assert capsys.readouterr().out == f"{workspace / 'alpha'}\n"
     assert main(["rospack", "fnd", "alpha"]) == 1
@@ -119,9 +115,7 @@ def test_the_command_prints_and_returns_the_status(
     assert "for example: rosmini rospack find std_msgs" in capsys.readouterr().out
 
 
-def test_rosversion(
-    workspace: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_rosversion(workspace: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.delenv("ROS_DISTRO", raising=False)
     for words, printed in (
         (["alpha"], "1.2.3\n"), (["-s", "alpha"], "1.2.3"), (["arms"], "<unversioned>\n"), (["-d"], "noetic\n")
@@ -134,9 +128,7 @@ def test_rosversion(
     assert "alpha: 1.2.3" in capsys.readouterr().out.splitlines()
 
 
-def test_roscd_and_rosls(
-    workspace: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_roscd_and_rosls(workspace: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     for words, printed in (
         (["roscd", "alpha"], f"{workspace / 'alpha'}\n"),
         (["roscd", "alpha/sub"], f"{workspace / 'alpha' / 'sub'}\n"),
@@ -178,16 +170,7 @@ def test_a_package_that_needs_what_every_robot_has(
     assert {"rosgraph", "genpy", "message_runtime"} <= set(ROSPACK.run("depends", "example_pkg").lines)
     assert "example_pkg" in ROSPACK.run("depends-on1", "rospy").lines
     assert "example_pkg" in ROSPACK.run("depends-on", "genpy").lines
-    for name in (
-        "rospy",
-        "roscpp",
-        "catkin",
-        "message_generation",
-        "message_runtime",
-        "actionlib",
-        "tf",
-        "tf2_ros",
-    ):
+    for name in ("rospy", "roscpp", "catkin", "message_generation", "message_runtime", "actionlib", "tf", "tf2_ros"):
         assert ROSPACK.run("find", name).lines[0].endswith(name)
     capsys.readouterr()
     assert main(["rospack", "find", "rostime"]) == 1

@@ -82,9 +82,7 @@ class Session:
     def start(self, name: str, *words: str, **variables: str) -> Any:
         """Start a program; what it prints goes to the file `name`."""
         file = self._stack.enter_context((self.folder / name).open("w", encoding="utf-8"))
-        return self._stack.enter_context(
-            start([*ROSMINI, *words], stdout=file, stderr=file, env=self.env | variables)
-        )
+        return self._stack.enter_context(start([*ROSMINI, *words], stdout=file, stderr=file, env=self.env | variables))
 
     def core(self, name: str = "core") -> Any:
         """Start a roscore, and wait until it answers."""
@@ -121,9 +119,7 @@ def session(workspace: Path) -> Iterator[Session]:
 def test_two_nodes_in_processes_of_their_own_talk(session: Session) -> None:
     core = session.core()
     listener = session.start("listener", "rosrun", "speaking", "listener.py")
-    talker = session.start(
-        "talker", "rosrun", "speaking", "talker.py", "__name:=speaker", "_greeting:=[1, 2]"
-    )
+    talker = session.start("talker", "rosrun", "speaking", "talker.py", "__name:=speaker", "_greeting:=[1, 2]")
     session.until_said("listener", "heard hello from /speaker [1, 2]", listener)
     assert re.fullmatch(r"\[INFO\] \[\d+\.\d{6}\]: said it\n", session.said("talker"))
     assert session.nodes() == {"/rosout", "/listener", "/speaker"}
@@ -140,9 +136,7 @@ def test_two_nodes_in_processes_of_their_own_talk(session: Session) -> None:
 def test_a_built_in_node_runs_in_a_process_of_its_own(session: Session) -> None:
     session.core()
     simulator = session.start("sim", "rosrun", "rosmini_sim", "simulator", "_world:=house", "__ns:=/robot1")
-    wait_until(
-        lambda: session.ask("lookupService", "/robot1/reset_positions")[0] == 1, "its set-up", simulator
-    )
+    wait_until(lambda: session.ask("lookupService", "/robot1/reset_positions")[0] == 1, "its set-up", simulator)
     wait_until(lambda: ["/robot1/scan", "sensor_msgs/LaserScan"] in session.ask("getPublishedTopics", "")[2],
                "the simulator", simulator)  # fmt: skip
     assert session.ask("getParam", "/robot1/simulator/world")[2] == "house"
@@ -168,17 +162,13 @@ def test_without_a_master_a_node_says_so_once_and_waits_for_it(session: Session)
 def test_a_master_that_comes_back_is_told_everything_again(session: Session) -> None:
     core = session.core()
     listener = session.start("listener", "rosrun", "speaking", "listener.py")
-    wait_until(
-        lambda: ["/chatter", ["/listener"]] in session.ask("getSystemState")[2][1], "the listener", listener
-    )
+    wait_until(lambda: ["/chatter", ["/listener"]] in session.ask("getSystemState")[2][1], "the listener", listener)
     core.kill()
     core.wait(PATIENCE)
     session.until_said("listener", "does not answer any more", listener)
     session.core("second core")
     session.until_said("listener", "is back: /listener registers again", listener)
-    wait_until(
-        lambda: ["/chatter", ["/listener"]] in session.ask("getSystemState")[2][1], "its return", listener
-    )
+    wait_until(lambda: ["/chatter", ["/listener"]] in session.ask("getSystemState")[2][1], "its return", listener)
     session.start("talker", "rosrun", "speaking", "talker.py")
     session.until_said("listener", "heard hello from /talker", listener)
     said = session.said("listener")
@@ -191,13 +181,7 @@ def test_each_process_has_its_own_anonymous_names_and_log_files(session: Session
     logs = session.folder / "logs"
     for name in ("one", "two"):
         session.start(
-            name,
-            "rosrun",
-            "speaking",
-            "listener.py",
-            "any",
-            ROS_LOG_DIR=str(logs / name),
-            ROS_NAMESPACE="deep",
+            name, "rosrun", "speaking", "listener.py", "any", ROS_LOG_DIR=str(logs / name), ROS_NAMESPACE="deep"
         )
     wait_until(lambda: len(session.nodes()) == 3, "two listeners")
     assert sum(name.startswith("/deep/listener_") for name in session.nodes()) == 2
@@ -216,10 +200,7 @@ def test_the_exit_status_is_the_script_s(session: Session) -> None:
     [
         (["nowhere", "x"], "nowhere"),
         (["speaking", "talke.py"], "talker.py"),
-        (
-            ["speaking", "talker.py", "__master:=robot"],
-            "__master:= is 'robot', which is no address of a Master",
-        ),
+        (["speaking", "talker.py", "__master:=robot"], "__master:= is 'robot', which is no address of a Master"),
         (["speaking", "talker.py", "__ip:=0.0.0.0"], "__ip:= is 0.0.0.0, which nobody can connect to"),
     ],
 )

@@ -136,9 +136,7 @@ def test_questions_take_no_time_of_the_graph_and_leave_nothing(graph: Graph) -> 
 
 def test_a_header_is_stamped_where_that_is_asked_for(graph: Graph) -> None:
     heard: list[Any] = []
-    graph.node("planner").service(
-        "/plan", GetPlan, lambda request: heard.append(request) or GetPlan._response_class()
-    )
+    graph.node("planner").service("/plan", GetPlan, lambda request: heard.append(request) or GetPlan._response_class())
     graph.run(1.0)
     run(graph, "call", "/plan", "start: {header: auto, pose: {position: {x: 1.5}}}")
     assert heard[0].start.pose.position.x == 1.5
@@ -152,9 +150,7 @@ def test_a_request_with_a_wrong_value_shows_the_definition(graph: Graph) -> None
 
 def test_a_type_that_is_not_known_here(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(SetBool, "_type", "far_away/SetBool")
-    with pytest.raises(
-        VerbError, match=r"Unable to load type \[far_away/SetBool\].*\n.*\n.*ROS_PACKAGE_PATH"
-    ):
+    with pytest.raises(VerbError, match=r"Unable to load type \[far_away/SetBool\].*\n.*\n.*ROS_PACKAGE_PATH"):
         run(graph, "call", "/set_bool", "true")
 
 
@@ -187,9 +183,7 @@ def test_requests_on_standard_input(graph: Graph, monkeypatch: pytest.MonkeyPatc
 
     last = act("/set_bool")
     assert said == ['success: True\nmessage: "got True"']
-    assert (
-        str(last) == 'success: False\nmessage: "got False"'
-    )  # what has no --- behind it is not sent, as in ROS
+    assert str(last) == 'success: False\nmessage: "got False"'  # what has no --- behind it is not sent, as in ROS
     assert len(warned) == 1 and warned[0].startswith("Invalid YAML")
     assert str(act("/set_bool")) == ""
 

@@ -107,9 +107,7 @@ def test_the_results_are_data(graph: Graph) -> None:
 
 
 def test_a_field_that_messages_do_not_have(graph: Graph) -> None:
-    with pytest.raises(
-        VerbError, match="messages on /scan are sensor_msgs/LaserScan and have no rangs; did you mean"
-    ):
+    with pytest.raises(VerbError, match="messages on /scan are sensor_msgs/LaserScan and have no rangs; did you mean"):
         run(graph, "type", "/scan/rangs")
 
 

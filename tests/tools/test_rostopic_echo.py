@@ -99,9 +99,7 @@ def test_a_filter_lets_some_messages_through(graph: Graph) -> None:
     publisher = graph.node("other").publisher("numbers", PoseStamped)
     numbers = iter(range(-3, 100))
     graph.nodes["/other"].timer(0.1, lambda _: publisher.publish(pose(next(numbers))))
-    _, result = echo(
-        graph, "-n 2 --filter 'm.pose.position.x > 0 and topic == \"/numbers\"' /numbers/pose/position/x"
-    )
+    _, result = echo(graph, "-n 2 --filter 'm.pose.position.x > 0 and topic == \"/numbers\"' /numbers/pose/position/x")
     assert result.messages == (1.0, 2.0)
     assert "/numbers" not in str(graph.ask_as("/t").ask("getSystemState")[1])  # it has left
 
@@ -175,9 +173,7 @@ def test_filters_cannot_do_anything(graph: Graph, expression: str) -> None:
 
 def test_a_type_that_is_not_known_here(graph: Graph) -> None:
     graph.ask_as("/far").ask("registerPublisher", "/odd", "their_pkg/Odd", "http://127.0.0.1:1/")
-    with pytest.raises(
-        VerbError, match=r"Cannot load message class for \[their_pkg/Odd\]. Are your messages built?"
-    ):
+    with pytest.raises(VerbError, match=r"Cannot load message class for \[their_pkg/Odd\]. Are your messages built?"):
         echo(graph, "/odd")
 
 

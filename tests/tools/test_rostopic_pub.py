@@ -40,9 +40,7 @@ def pub(graph: Graph, line: str) -> tuple[str, int, Any]:
 
 def ear(graph: Graph, topic: str, kind: str) -> list[Any]:
     heard: list[Any] = []
-    graph.node("ear").subscriber(
-        topic, message_class(kind), lambda message: heard.append((graph.now(), message))
-    )
+    graph.node("ear").subscriber(topic, message_class(kind), lambda message: heard.append((graph.now(), message)))
     return heard
 
 
@@ -108,10 +106,7 @@ def test_a_value_of_the_wrong_kind(graph: Graph) -> None:
     """The real one says so only where somebody listens; we do at once."""
     text, status, _ = pub(graph, "-1 /t1 std_msgs/Float64 hello")
     assert status == 1
-    assert (
-        "ERROR: Unable to publish message. One of the fields has an incorrect type:\n  std_msgs/Float64"
-        in text
-    )
+    assert "ERROR: Unable to publish message. One of the fields has an incorrect type:\n  std_msgs/Float64" in text
     assert text.endswith("msg file:\nfloat64 data\n")
 
 
@@ -123,9 +118,7 @@ def test_a_type_that_nobody_knows(graph: Graph) -> None:
 
 def test_an_alias_bomb_is_refused(graph: Graph) -> None:
     levels = ["a: &a [x, x, x, x, x, x, x, x, x]"]
-    levels += [
-        f"{new}: &{new} [{', '.join([f'*{old}'] * 9)}]" for old, new in zip("abcdefg", "bcdefgh", strict=True)
-    ]
+    levels += [f"{new}: &{new} [{', '.join([f'*{old}'] * 9)}]" for old, new in zip("abcdefg", "bcdefgh", strict=True)]
     with pytest.raises(Exception, match="values with its aliases"):
         TOOL.run("pub", "/t", "std_msgs/String", "\n".join(levels), graph=graph)
 

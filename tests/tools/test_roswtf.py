@@ -126,9 +126,7 @@ def small_inflation(graph: Graph) -> None:
     ],
     ids=lambda each: getattr(each, "__name__", None),
 )
-def test_it_finds_what_beginners_lose_days_to(
-    graph: Graph, make: Callable[[Graph], None], expected: list[str]
-) -> None:
+def test_it_finds_what_beginners_lose_days_to(graph: Graph, make: Callable[[Graph], None], expected: list[str]) -> None:
     make(graph)
     graph.run(0.5)
     assert rules(look(graph)) == expected
@@ -139,16 +137,12 @@ def test_a_launch_file_is_looked_at_too(graph: Graph, tmp_path: Path) -> None:
     file.write_text('<launch><node pkg="turtlebot3_nope" type="x" name="x"/></launch>', encoding="utf-8")
     assert rules(look(graph, str(file))) == ["launch_missing"]
     assert rules(look(graph, str(file.with_name("b.launch")))) == ["launch_file"]
-    file.write_text(
-        '<launch><arg name="which"/><param name="x" value="$(arg which)"/></launch>', encoding="utf-8"
-    )
+    file.write_text('<launch><arg name="which"/><param name="x" value="$(arg which)"/></launch>', encoding="utf-8")
     assert rules(look(graph, str(file), "which:=1")) == []
     assert rules(look(graph, str(file))) == ["launch_missing"]
 
 
-def test_in_a_terminal_a_launch_file_has_its_arguments(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_in_a_terminal_a_launch_file_has_its_arguments(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "a.launch"
     file.write_text('<launch><arg name="which"/></launch>', encoding="utf-8")
     assert cli.main(["roswtf", "--offline", str(file), "which:=1"]) == 0

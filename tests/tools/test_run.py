@@ -11,10 +11,7 @@ from rosmini.tools.main import main
 
 def test_scripts_and_arguments():
     specs = command.nodes_in(["a.py", "x:=y", "++", "+", "b.py", "-v", "--", "z"])
-    assert [(spec.path, spec.args) for spec in specs] == [
-        ("a.py", ("x:=y", "+")),
-        ("b.py", ("-v", "--", "z")),
-    ]
+    assert [(spec.path, spec.args) for spec in specs] == [("a.py", ("x:=y", "+")), ("b.py", ("-v", "--", "z"))]
 
 
 @pytest.mark.parametrize("words", [[], ["+"], ["a.py", "+"], ["+", "a.py"], ["a.py", "+", "+", "b.py"]])
@@ -27,11 +24,7 @@ def test_a_missing_script_is_an_error(words):
     ("words", "left", "ours"),
     [
         (["a.py", "--duration", "5"], ["a.py"], ["--duration", "5"]),
-        (
-            ["a.py", "+", "b.py", "--sim-time", "--duration=5"],
-            ["a.py", "+", "b.py"],
-            ["--sim-time", "--duration=5"],
-        ),
+        (["a.py", "+", "b.py", "--sim-time", "--duration=5"], ["a.py", "+", "b.py"], ["--sim-time", "--duration=5"]),
         (["a.py", "--duration", "5", "--"], ["a.py", "--duration", "5"], []),
         (["a.py", "--sim-time", "+", "b.py"], ["a.py", "--sim-time", "+", "b.py"], []),
         (["a.py", "--rate", "5"], ["a.py", "--rate", "5"], []),
@@ -50,9 +43,7 @@ def scripts(tmp_path):
         "sys.argv[1:])\n",
         encoding="utf-8",
     )
-    (tmp_path / "bad.py").write_text(
-        "import sys\nprint('to stderr', file=sys.stderr)\n1 / 0\n", encoding="utf-8"
-    )
+    (tmp_path / "bad.py").write_text("import sys\nprint('to stderr', file=sys.stderr)\n1 / 0\n", encoding="utf-8")
     (tmp_path / "wait.py").write_text("import threading\nthreading.Event().wait()\n", encoding="utf-8")
     return tmp_path
 
@@ -96,11 +87,7 @@ def test_errors_on_the_command_line(scripts, capsys):
     assert "did you mean clock.py?" in capsys.readouterr().err
     assert main(["run"]) == 1
     assert "no script and no node was given" in capsys.readouterr().err
-    for words in (
-        ["--duration", "0", "a.py"],
-        ["a.py", "--duration", "soon"],
-        ["--sim-time", "a.py", "--wall-time"],
-    ):
+    for words in (["--duration", "0", "a.py"], ["a.py", "--duration", "soon"], ["--sim-time", "a.py", "--wall-time"]):
         with pytest.raises(SystemExit) as caught:
             main(["run", *words])
         assert caught.value.code == 2

@@ -52,9 +52,7 @@ def test_a_type_checker_reads_a_script(
     (workspace / "right.py").write_text(SCRIPT, encoding="utf-8")
     (workspace / "wrong.py").write_text(SCRIPT.replace("Num(num=3)", "Num(nun=3)"), encoding="utf-8")
     (workspace / "mypy.ini").write_text("[mypy]\nmypy_path = typings\n", encoding="utf-8")
-    found, complaints, _ = mypy(
-        ["--cache-dir", "cache", "--follow-imports", "silent", "right.py", "wrong.py"]
-    )
+    found, complaints, _ = mypy(["--cache-dir", "cache", "--follow-imports", "silent", "right.py", "wrong.py"])
     problems = [line for line in found.splitlines() if "error:" in line]
     assert problems, found + complaints
     assert all(line.startswith("wrong.py:") for line in problems), found
@@ -78,9 +76,7 @@ def test_what_is_not_ours_is_left_alone(workspace: Path, capsys: pytest.CaptureF
     assert list((workspace / "typings").rglob("*.pyi")) == [own]
 
 
-def test_a_package_that_is_wrong_is_left_out_and_told(
-    workspace: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_package_that_is_wrong_is_left_out_and_told(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (workspace / "src" / "own_pkg" / "msg" / "Bad.msg").write_text("int65 x\n", encoding="utf-8")
     assert main(["stubs"]) == 1
     assert "own_pkg is left out: " in capsys.readouterr().err

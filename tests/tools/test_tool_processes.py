@@ -49,18 +49,14 @@ def known(env: dict[str, str]) -> str:
 
 @posix
 @pytest.mark.parametrize(
-    ("line", "buffered"),
-    [("rosmsg list", ""), ("rosmsg list", "1"), ("rosnode list", ""), ("rosnode bogus", "1")],
+    ("line", "buffered"), [("rosmsg list", ""), ("rosmsg list", "1"), ("rosnode list", ""), ("rosnode bogus", "1")]
 )
 def test_nobody_reads_the_output(env: dict[str, str], line: str, buffered: str) -> None:
     reader, writer = os.pipe()
     os.close(reader)
     try:
         with start(
-            [*ROSMINI, *line.split()],
-            env={**env, "PYTHONUNBUFFERED": buffered},
-            stdout=writer,
-            stderr=subprocess.PIPE,
+            [*ROSMINI, *line.split()], env={**env, "PYTHONUNBUFFERED": buffered}, stdout=writer, stderr=subprocess.PIPE
         ) as process:
             _, said = process.communicate(timeout=PATIENCE)
     finally:
@@ -83,9 +79,7 @@ def test_the_disk_is_full(env: dict[str, str]) -> None:
 
 @posix
 def test_ctrl_c_while_a_service_is_waited_for(env: dict[str, str]) -> None:
-    with start(
-        [*ROSMINI, "rosservice", "call", "--wait", "/never"], env=env, stderr=subprocess.PIPE
-    ) as process:
+    with start([*ROSMINI, "rosservice", "call", "--wait", "/never"], env=env, stderr=subprocess.PIPE) as process:
         wait_until(lambda: "/rosservice_" in known(env), "the tool's node", process)
         process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=PATIENCE)
@@ -154,10 +148,7 @@ def test_gz_acts_on_a_server_in_another_process(env: dict[str, str], tmp_path: P
     with start([*ROSMINI, "rosrun", "gazebo_ros", "gzserver"], env=env) as process:
         wait_until(lambda: "/gazebo/get_world_properties" in known(env), "gzserver", process)
         assert ask(env, f"gz model -f {box} -m crate -x 2").returncode == 0
-        assert (
-            ask(env, "gz model -m crate -p").stdout
-            == "2.000000 0.000000 0.000000 0.000000 0.000000 0.000000\n"
-        )
+        assert ask(env, "gz model -m crate -p").stdout == "2.000000 0.000000 0.000000 0.000000 0.000000 0.000000\n"
         assert ask(env, "gz world -p 1").returncode == 0
         assert "Paused[T]" in ask(env, "gz stats").stdout
         stepped = ask(env, "gz world -s")  # gazebo_ros has no service for a step

@@ -78,9 +78,7 @@ def test_in_python_a_verb_returns_its_result(greet: Tool, capsys: pytest.Capture
             greet.run("all", "--but", "/nobody", graph=graph)
 
 
-def test_in_a_terminal_it_is_printed_and_has_an_exit_status(
-    greet: Tool, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_in_a_terminal_it_is_printed_and_has_an_exit_status(greet: Tool, capsys: pytest.CaptureFixture[str]) -> None:
     assert greet.name == "rosgreet"
     nodes = ["+", "rosmini_sim/simulator", "__name:=one", "+", "rosmini_sim/simulator", "__name:=two"]
     assert cli.main(["rosgreet", "all", "--but", "/rosout", *nodes]) == 1
@@ -91,18 +89,14 @@ def test_in_a_terminal_it_is_printed_and_has_an_exit_status(
     assert capsys.readouterr().err == "there is no node /x\n"
 
 
-def test_a_verb_that_needs_a_graph_says_how_to_name_one(
-    greet: Tool, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_verb_that_needs_a_graph_says_how_to_name_one(greet: Tool, capsys: pytest.CaptureFixture[str]) -> None:
     assert greet.verbs["all"].needs_graph
     assert cli.main(["rosgreet", "all"]) == 1
     assert "`rosmini rosgreet all + rosmini_sim/simulator`" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("words", [("al",), ("all", "--wrd", "x"), ("help", "al")])
-def test_words_that_make_no_sense(
-    greet: Tool, words: tuple[str, ...], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_words_that_make_no_sense(greet: Tool, words: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(UsageError, match="all"):
         greet.run(*words)
     assert cli.main(["rosgreet", *words]) == 64
@@ -110,9 +104,7 @@ def test_words_that_make_no_sense(
 
 
 @pytest.mark.parametrize("words", [("all", "-h"), ("help", "all")])
-def test_help_is_the_same_in_both(
-    greet: Tool, words: tuple[str, ...], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_help_is_the_same_in_both(greet: Tool, words: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
     told = str(greet.run(*words))
     assert "how to greet" in told
     assert cli.main(["rosgreet", *words]) == 0
@@ -127,9 +119,7 @@ def test_the_results_of_rosbag_have_data(tmp_path: Path, monkeypatch: pytest.Mon
         for number in range(4):
             bag.write("/chatter", String(str(number)), Time(100 + number))
     said: list[str] = []
-    copied = ROSBAG.run(
-        "filter", "-p", "m.data", "t.bag", tmp_path / "f.bag", "t.secs < 102", say=said.append
-    )
+    copied = ROSBAG.run("filter", "-p", "m.data", "t.bag", tmp_path / "f.bag", "t.secs < 102", say=said.append)
     assert said == ["MATCH 0", "MATCH 1", "NO MATCH 2", "NO MATCH 3"]
     assert vars(copied)["bags"] == ((tmp_path / "f.bag", "2 of 4 messages"),)
     assert vars(ROSBAG.run("check", "t.bag"))["changes"] == ()

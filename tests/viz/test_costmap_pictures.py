@@ -17,9 +17,7 @@ def grid():
 
 
 def test_it_says_how_large_it_is_and_what_is_in_it():
-    view = grid().show(
-        title="Figure 33.1: Costs", robot=(0.0, 2.5, 1.5708), plan=[(0, 2.5), (1, 2.5)], goal=(1, 2.5)
-    )
+    view = grid().show(title="Figure 33.1: Costs", robot=(0.0, 2.5, 1.5708), plan=[(0, 2.5), (1, 2.5)], goal=(1, 2.5))
     assert view.text == (
         "Figure 33.1: Costs: 4 x 2 cells of 0.5 m, 2.00 x 1.00 m, origin (-1.00, 2.00)\n"
         "free 38 %, near something 13 %, inscribed 13 %, obstacle 13 %, unknown 25 %\n"
@@ -34,9 +32,7 @@ def test_it_says_how_large_it_is_and_what_is_in_it():
 
 def test_a_window_and_a_footprint():
     square = [(0.2, 0.2), (0.2, -0.2), (-0.2, -0.2), (-0.2, 0.2)]
-    view = grid().show(
-        window=(1, 0, 9, 1), robot=(0, 2, 0), footprint=square, scheme="safe", name="local_costmap"
-    )
+    view = grid().show(window=(1, 0, 9, 1), robot=(0, 2, 0), footprint=square, scheme="safe", name="local_costmap")
     assert view.text.startswith("local_costmap: 3 x 1 cells of 0.5 m, 1.50 x 0.50 m, origin (-0.50, 2.00)\n")
     assert view.text.endswith("footprint of 4 points")
     assert view.svg != grid().show(window=(1, 0, 9, 1), robot=(0, 2, 0), scheme="safe").svg

@@ -37,9 +37,7 @@ def test_text_and_alt_text_are_those_of_all(views):
 def test_the_picture_has_them_side_by_side_and_none_over_another(views):
     root = ET.fromstring(grid(*views, columns=2)._images()["image/svg+xml"])
     *_, width, height = (float(part) for part in root.get("viewBox").split())
-    boxes = [
-        [float(svg.get(name)) for name in ("x", "y", "width", "height")] for svg in root.findall(f"{TAG}svg")
-    ]
+    boxes = [[float(svg.get(name)) for name in ("x", "y", "width", "height")] for svg in root.findall(f"{TAG}svg")]
     assert len(boxes) == 3
     for i, (x, y, w, h) in enumerate(boxes):
         assert x >= 0

@@ -78,9 +78,7 @@ def test_from_above_what_drives_is_a_robot_and_what_does_not_is_a_thing(server):
     assert size.endswith("2 obstacles")  # the wall and the crate
     assert lines == [
         "tb3_0: pose (0.00, 1.00, 90.0 deg)",
-        "tb3_1: pose (-0.06, -1.00, 0.0 deg)"
-        if "-0.06" in lines[1]
-        else "tb3_1: pose (0.00, -1.00, 0.0 deg)",
+        "tb3_1: pose (-0.06, -1.00, 0.0 deg)" if "-0.06" in lines[1] else "tb3_1: pose (0.00, -1.00, 0.0 deg)",
         "crate: pose (-1.00, 0.00, 0.0 deg)",
         "static: ground, wall",
     ]
@@ -127,8 +125,7 @@ def test_a_turtlebot3_looks_as_its_meshes_do(server):
     assert "models/tb3/wheel_left_link" in nodes
     corners = np.vstack(
         [
-            part.surface.vertices @ view.scene.transform(part.node)[:3, :3].T
-            + view.scene.transform(part.node)[:3, 3]
+            part.surface.vertices @ view.scene.transform(part.node)[:3, :3].T + view.scene.transform(part.node)[:3, 3]
             for part in view.scene.surfaces
         ]
     )
@@ -224,10 +221,7 @@ def test_the_camera_goes_to_a_model(server):
 
 
 def test_what_stands_on_something_is_painted_after_it(server):
-    for name, z, size, colour in (
-        ("high", 0.3, "0.3 0.3 0.3", "0 0 1"),
-        ("low", 0.0, "0.6 0.6 0.3", "1 0 0"),
-    ):
+    for name, z, size, colour in (("high", 0.3, "0.3 0.3 0.3", "0 0 1"), ("low", 0.0, "0.6 0.6 0.3", "1 0 0")):
         static = crate(name, colour).replace("<link", "<static>1</static><link", 1)
         text = static.replace("0.3 0.3 0.3", size)
         spawn_text(server.world, text, name, (0.0, 0.0, z, 0.0, 0.0, 0.0))

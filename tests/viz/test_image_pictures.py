@@ -100,10 +100,7 @@ def test_nothing_within_reach_is_said():
 @pytest.mark.parametrize("encoding", ENCODINGS)
 def test_data_that_are_too_short_are_refused(encoding):
     told = message(COLOURS, encoding)
-    told.step, told.data = (
-        2 * ENCODINGS[encoding].channels * np.dtype(ENCODINGS[encoding].kind).itemsize,
-        b"\0",
-    )
+    told.step, told.data = (2 * ENCODINGS[encoding].channels * np.dtype(ENCODINGS[encoding].kind).itemsize, b"\0")
     with pytest.raises(ViewError, match="it has 1 bytes"):
         image_picture(told)
 

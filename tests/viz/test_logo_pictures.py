@@ -26,9 +26,7 @@ def run_of(view):
 
 
 def test_lines_grow_in_the_order_and_the_colours_of_the_program():
-    run = run_of(
-        logo_picture(drawing('fd 100 pu fd 50 pd setpc "red setpensize 5 rt 90 fd 100'), speed=100.0)
-    )
+    run = run_of(logo_picture(drawing('fd 100 pu fd 50 pd setpc "red setpensize 5 rt 90 fd 100'), speed=100.0))
     (layer,) = run.layers
     first, second = layer.strokes
     assert (first.colour, first.width, second.colour, second.width) == ("#b3b8ff", 3.0, "#ff0000", 5.0)
@@ -53,10 +51,7 @@ def test_forms_and_equal_bytes():
     assert "rosminiReplay" in (first.html or "")
     assert first.data["opens"] == "end"
     assert first._images()["image/svg+xml"].startswith(b"<svg")
-    assert (
-        logo_picture(drawing("print 1")).text
-        == "Replay of Logo: 0 lines, 0 steps\nturtle1 at [0 0], heading 0"
-    )
+    assert logo_picture(drawing("print 1")).text == "Replay of Logo: 0 lines, 0 steps\nturtle1 at [0 0], heading 0"
 
 
 def test_a_speed_that_is_none():

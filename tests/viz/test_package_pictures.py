@@ -50,9 +50,7 @@ def test_a_folder_is_shown_with_what_its_parts_are_for(index):
 
 
 def test_a_graph_follows_the_manifests_as_far_as_asked(index):
-    assert package_graph("robot", index=index).text == (
-        "packages: 2 packages\nrobot -> eyes\nmetapackages: robot"
-    )
+    assert package_graph("robot", index=index).text == ("packages: 2 packages\nrobot -> eyes\nmetapackages: robot")
     deep = package_graph("robot", depth=3, index=index, title="Figure 2")
     assert deep.text.splitlines() == [
         "Figure 2: 4 packages",

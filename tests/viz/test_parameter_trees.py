@@ -70,10 +70,7 @@ def test_a_graphs_parameters_without_roscores_own() -> None:
             "    speed: 2.0 (float)",
         ]
         assert "rosdistro" in parameter_tree(graph.master, hide=()).text
-        assert parameter_tree(graph, "/robot/node").text.splitlines()[1:] == [
-            "/robot/node",
-            "  rate: 10 (int)",
-        ]
+        assert parameter_tree(graph, "/robot/node").text.splitlines()[1:] == ["/robot/node", "  rate: 10 (int)"]
         assert "speed is 2.0" in parameter_tree(graph).alt
         with pytest.raises(ViewError, match=r"\[/nothing\] is not set"):
             parameter_tree(graph, "/nothing")

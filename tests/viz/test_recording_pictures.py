@@ -55,9 +55,7 @@ def test_the_picture_says_where_from_where_to_and_how_far_odometry_is_off():
     ):
         assert said in view.alt
     orange = style.LIGHT["orange"]
-    assert (
-        sum("dasharray" in p for p in re.findall(rf'<path[^>]*"{orange}"[^>]*>', view.svg)) >= 3
-    )  # way, ghost
+    assert sum("dasharray" in p for p in re.findall(rf'<path[^>]*"{orange}"[^>]*>', view.svg)) >= 3  # way, ghost
 
 
 def test_the_last_scan_is_drawn_from_where_it_was_taken():
@@ -83,12 +81,9 @@ def test_the_plots_say_what_was_commanded_driven_and_wrong():
     ]
     assert "commanded by 1 message" in view.alt
     words = [node.text for node in ET.fromstring(view.svg).iter("{http://www.w3.org/2000/svg}text")]
-    assert {
-        "linear velocity [m/s]",
-        "angular velocity [rad/s]",
-        "odometry: position error [m]",
-        "time [s]",
-    } <= set(words)
+    assert {"linear velocity [m/s]", "angular velocity [rad/s]", "odometry: position error [m]", "time [s]"} <= set(
+        words
+    )
     assert {"driven", "commanded"} <= set(words)
 
 
@@ -145,9 +140,7 @@ def together() -> Recording:
     own = run()
     crate = next(o for o in own.world.obstacles if o.movable)
     x, y, theta = crate.pose
-    moved = Moved(
-        crate, np.array([0.0, 4.0, 6.0]), np.array([(x, y, theta), (x, y, theta), (x + 1.0, y, theta)])
-    )
+    moved = Moved(crate, np.array([0.0, 4.0, 6.0]), np.array([(x, y, theta), (x, y, theta), (x + 1.0, y, theta)]))
     others = [
         replace(own, truth=own.truth + (0.0, 0.4 * i, 0.0), name=name, model=model(name))
         for i, name in enumerate(("waffle", "waffle_pi"), 1)
@@ -162,9 +155,7 @@ def test_each_robot_has_its_colour_its_name_and_its_way():
     for name in ("green", "purple"):
         assert f'stroke="{style.LIGHT[name]}"' in view.svg and f'fill="{style.LIGHT[name]}"' in view.svg
     end = together().others[0].truth[-1]
-    assert (
-        f"waffle (waffle): 1.50 m, start (0.00, 0.40, 0.0 deg), end ({end[0]:.2f}, {end[1]:.2f}" in view.text
-    )
+    assert f"waffle (waffle): 1.50 m, start (0.00, 0.40, 0.0 deg), end ({end[0]:.2f}, {end[1]:.2f}" in view.text
     assert "Beside it waffle drove 1.50 m, waffle_pi drove 1.50 m." in view.alt
 
 

@@ -59,9 +59,7 @@ def test_left_is_on_the_left_and_ahead_is_up():
     ranges[0], ranges[90] = 1.0, 2.0
     svg = scan_picture(message(ranges)).svg
     around, over = re.findall(r'd="((?:M\S+ \S+h0)+)"', svg)
-    (ahead_x, ahead_y), (left_x, left_y) = (
-        tuple(map(float, spot)) for spot in re.findall(r"M(\S+) (\S+)h0", around)
-    )
+    (ahead_x, ahead_y), (left_x, left_y) = (tuple(map(float, spot)) for spot in re.findall(r"M(\S+) (\S+)h0", around))
     centre = (40 + 264 / 2, 24 + 264 / 2)
     scale = 264 / 7
     assert (ahead_x, ahead_y) == pytest.approx((centre[0], centre[1] - scale), abs=0.05)

@@ -49,9 +49,7 @@ def lines_of(picture):
 
 
 def test_a_long_label_has_room_between_its_two_lines():
-    near, far = (
-        lines_of(sequence_diagram([("a", "b", "x" * count, None)], title="it")) for count in (1, 100)
-    )
+    near, far = (lines_of(sequence_diagram([("a", "b", "x" * count, None)], title="it")) for count in (1, 100))
     assert near[1] - near[0] < 200 < 700 < far[1] - far[0]
 
 

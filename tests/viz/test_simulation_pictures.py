@@ -57,8 +57,7 @@ def test_a_simulation_shows_the_robot_where_it_is_and_its_last_scan(graph):
 def test_a_simulation_of_stage_shows_its_robot_and_what_its_laser_saw(graph, tmp_path):
     world = tmp_path / "one.world"
     world.write_text(
-        "position( ranger( sensor( range [0 5] fov 180 samples 5 ) ) )\nmodel( pose [2 0 0 0] )\n",
-        encoding="utf-8",
+        "position( ranger( sensor( range [0 5] fov 180 samples 5 ) ) )\nmodel( pose [2 0 0 0] )\n", encoding="utf-8"
     )
     stage = Stageros(graph.node("stageros"), str(world))
     graph.run(1.0)

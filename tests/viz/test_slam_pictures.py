@@ -35,10 +35,7 @@ def test_a_film_is_played(film):
     ("make", "said"),
     [
         (lambda film: film.slam.show(particle=7), "particles 0 to 3, not 7"),
-        (
-            lambda film: GridSlam(Settings(), random=np.random.default_rng(0)).show(),
-            "no scan has been processed",
-        ),
+        (lambda film: GridSlam(Settings(), random=np.random.default_rng(0)).show(), "no scan has been processed"),
         (lambda film: Film(film.slam).show(), "the film is empty"),
     ],
 )

@@ -30,9 +30,7 @@ def test_the_server_has_all_its_steps():
 
 def test_the_client_has_its_single_steps():
     picture = action_states("client")
-    assert sorted(groups(picture, "rm-state")) == sorted(
-        one.name for one in CommState if one is not CommState.LOST
-    )
+    assert sorted(groups(picture, "rm-state")) == sorted(one.name for one in CommState if one is not CommState.LOST)
     assert "  PREEMPTING -> WAITING_FOR_RESULT: PREEMPTED, SUCCEEDED, ABORTED" in picture.text.splitlines()
     assert ("WAITING_FOR_RESULT", "result", "DONE") in client_transitions()
     assert picture.text.splitlines()[-1] == "  final: DONE"
@@ -72,8 +70,6 @@ def test_a_picture_begins_at_its_first_state():
         picture = state_machine(steps, title="a circle", first=first)
         root = ET.fromstring(picture.svg)
         tops = {
-            "".join(g.itertext()): float(g[0].get("y"))
-            for g in root.iter(f"{SVG}g")
-            if g.get("class") == "rm-state"
+            "".join(g.itertext()): float(g[0].get("y")) for g in root.iter(f"{SVG}g") if g.get("class") == "rm-state"
         }
         assert min(tops, key=tops.get) == first

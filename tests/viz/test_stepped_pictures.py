@@ -81,9 +81,7 @@ def test_each_frame_of_a_map_is_the_map_of_its_numbers(write):
     frees, occupieds, modes, negates = (list(axis.values) for axis in view.axes)
 
     def text(free, occupied, mode="trinary", negate="0"):
-        return view.frame(
-            [frees.index(free), occupieds.index(occupied), modes.index(mode), negates.index(negate)]
-        ).text
+        return view.frame([frees.index(free), occupieds.index(occupied), modes.index(mode), negates.index(negate)]).text
 
     assert text("0.25", "0.65") == "free 75.0 %, occupied 12.5 %, unknown 12.5 %"
     assert text("0.25", "0.5") == "free 75.0 %, occupied 25.0 %, unknown 0.0 %"
@@ -157,8 +155,7 @@ def test_searches_are_shown_after_equal_numbers_of_expanded_cells():
     ]
     assert view.frames[0].text.startswith("Dijkstra: 0 cells taken up, 1 reached")
     assert view.frames[-1].text.split("\n") == [
-        f"{name}: {each.expanded} cells taken up, {each.reached.sum()} reached, arrived"
-        for name, each in both.items()
+        f"{name}: {each.expanded} cells taken up, {each.reached.sum()} reached, arrived" for name, each in both.items()
     ]
     reached = [int(frame.text.split("A*: ")[1].split(", ")[1].split()[0]) for frame in view.frames]
     assert reached == sorted(reached)
@@ -208,9 +205,7 @@ def test_trajectories_go_from_the_best_to_the_rejected(samples, costmap):
     assert best.startswith("best: 0.") and view.frames[0].text == best
     assert rejected == f"rejected: obstacle {samples.counts()['obstacle']}"
     assert view.svg.count('class="tx"') == samples.counts()["obstacle"] + 1
-    costs = [
-        float(re.search(r"cost ([\d.]+)", frame.text)[1]) for frame in view.frames if "cost" in frame.text
-    ]
+    costs = [float(re.search(r"cost ([\d.]+)", frame.text)[1]) for frame in view.frames if "cost" in frame.text]
     assert costs == sorted(costs) and len(costs) == samples.accepted.sum()
     assert "rejected by obstacle: " in view.frames[-1].text
     # Where no page sets the palette, as in a viewer of notebooks, each colour needs a fallback.
@@ -298,9 +293,7 @@ def test_a_filter_needs_a_map():
 def test_a_match_goes_step_by_step_to_the_pose_of_the_mapper():
     grid = OccupancyGrid((80, 80), 0.05, (-2.0, -2.0))
     side = np.linspace(-1.2, 1.2, 40)
-    ends = np.concatenate(
-        [np.column_stack([side, np.full(40, 1.2)]), np.column_stack([np.full(40, 1.0), side])]
-    )
+    ends = np.concatenate([np.column_stack([side, np.full(40, 1.2)]), np.column_stack([np.full(40, 1.0), side])])
     for _ in range(3):
         grid.update((0.0, 0.0), ends)
     view = match_steps(grid, ends, (0.06, 0.05, 0.03), steps=6, title="Figure 1")

@@ -25,9 +25,7 @@ def test_the_still_picture_is_the_chosen_frame_on_its_ground():
     view = player(still=[1, 2])
     assert view.frame([1, 2]).text == "large blue"
     assert view.svg.count("rm-panel") == 2
-    assert (
-        "<desc>large</desc>" in view.svg and "<desc>blue</desc>" in view.svg and "class='ground'" in view.svg
-    )
+    assert "<desc>large</desc>" in view.svg and "<desc>blue</desc>" in view.svg and "class='ground'" in view.svg
     assert "<desc>small</desc>" in player().svg and "<desc>small</desc>" not in view.svg
     assert (view.text, view.alt, view.name) == ("six shapes", "Six shapes.", "shapes")
 

@@ -41,14 +41,9 @@ def test_its_alt_text():
 
 def test_parents_are_above_their_children_and_labels_are_there():
     svg = ET.fromstring(tf_tree(robot()).svg)
-    texts = [
-        (t.text, float(t.get("y")), t.get("text-anchor"))
-        for t in svg.iter("{http://www.w3.org/2000/svg}text")
-    ]
+    texts = [(t.text, float(t.get("y")), t.get("text-anchor")) for t in svg.iter("{http://www.w3.org/2000/svg}text")]
     height = {text: y for text, y, anchor in texts if anchor == "middle"}
-    assert (
-        height["map"] < height["odom"] < height["base_footprint"] < height["base_scan"] == height["imu_link"]
-    )
+    assert height["map"] < height["odom"] < height["base_footprint"] < height["base_scan"] == height["imu_link"]
     assert [text for text, _, _ in texts].count("Average rate: 11.0 Hz") == 2
     assert tf_tree(robot()).svg == tf_tree(robot()).svg
 

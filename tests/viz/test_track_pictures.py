@@ -18,9 +18,9 @@ def test_text_and_alt():
     picture = track_picture(SQUARE, title="Figure 1: round")
     assert picture.text == "Figure 1: round: 5.00 m from (0.00, 0.00) to (0.00, 1.00), 4 positions"
     assert "begins at (0.00, 0.00) and ends at (0.00, 1.00)" in picture.alt
-    assert track_picture(
-        {"pose.pose.position.x": SQUARE[:, 0], "pose.pose.position.y": SQUARE[:, 1]}
-    ).text.startswith("track: 5.00 m")
+    assert track_picture({"pose.pose.position.x": SQUARE[:, 0], "pose.pose.position.y": SQUARE[:, 1]}).text.startswith(
+        "track: 5.00 m"
+    )
 
 
 def test_it_is_drawn_to_scale():

@@ -40,10 +40,7 @@ def test_it_is_well_formed_and_small() -> None:
     assert svg is not None
     root = ET.fromstring(svg)
     paths = [each for each in root.iter("{http://www.w3.org/2000/svg}path") if each.get("stroke")]
-    assert [(each.get("stroke"), each.get("stroke-width")) for each in paths] == [
-        ("#b3b8ff", "3"),
-        ("#ff0000", "5"),
-    ]
+    assert [(each.get("stroke"), each.get("stroke-width")) for each in paths] == [("#b3b8ff", "3"), ("#ff0000", "5")]
     assert paths[0].get("d", "").count("L") == 1  # thirty strokes in one straight line
     assert len(svg) < 8000
 

@@ -37,17 +37,7 @@ def test_the_picture_has_every_link_and_joint_and_is_the_same_each_time(picture)
     svg = picture.svg
     root = ET.fromstring(svg)
     words = {each.text for each in root.iter() if each.tag.endswith("text")}
-    assert {
-        "base",
-        "upper",
-        "lower",
-        "lid",
-        "shoulder",
-        "elbow",
-        "slide",
-        "revolute",
-        "mimics shoulder",
-    } <= words
+    assert {"base", "upper", "lower", "lid", "shoulder", "elbow", "slide", "revolute", "mimics shoulder"} <= words
     kinds = [each.get("class") for each in root.iter() if each.get("class", "").startswith("urdf-")]
     assert sorted(kinds) == ["urdf-body", "urdf-frame", "urdf-frame", *["urdf-joint"] * 3, "urdf-root"]
     assert urdf_tree(load(ARM), title="An arm").svg == svg

@@ -145,10 +145,7 @@ def test_on_paper_lines_differ_without_their_colours():
     assert min(np.diff(lightness)) > 8
     assert min(on_page) >= 3.0
     for name, colour in style.PRINT.items():
-        hues = [
-            rgb_to_hls(*(int(c[i : i + 2], 16) / 255 for i in (1, 3, 5)))[0]
-            for c in (colour, style.LIGHT[name])
-        ]
+        hues = [rgb_to_hls(*(int(c[i : i + 2], 16) / 255 for i in (1, 3, 5)))[0] for c in (colour, style.LIGHT[name])]
         assert abs(hues[0] - hues[1]) < 0.02, name
 
 
@@ -178,17 +175,13 @@ def test_a_picture_follows_the_theme_of_its_page_and_has_no_id_and_no_link():
 def test_a_thing_is_shown_by_the_renderer_of_its_kind(monkeypatch):
     point = EntryPoint("computation_graph", "rosmini.viz.rqt:rqt_graph", show_module.GROUP)
     monkeypatch.setattr(show_module, "entry_points", lambda group: EntryPoints([point]).select(group=group))
-    assert show_module.show("computation_graph", SYSTEM, mode="nodes_topics_all").text.startswith(
-        "rqt_graph: 2 nodes"
-    )
+    assert show_module.show("computation_graph", SYSTEM, mode="nodes_topics_all").text.startswith("rqt_graph: 2 nodes")
     with pytest.raises(show_module.UnknownExtension, match="did you mean computation_graph"):
         show_module.show("computation_graf", SYSTEM)
 
 
 def test_the_entry_points_of_the_project_can_be_loaded():
-    declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"].get(
-        "entry-points", {}
-    )
+    declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"].get("entry-points", {})
     found = {
         name: EntryPoint(name, value, group).load()
         for group in ("rosmini.renderers", "myst_nb.mime_renderers")

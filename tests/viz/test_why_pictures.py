@@ -16,11 +16,7 @@ def texts(why: Why) -> list[str]:
 
 
 def test_causes_stand_above_what_they_led_to() -> None:
-    why = Why(
-        (Step("b did it", 2.0, "b.py, line 2"), Step("a did it", 1.0)),
-        "and nobody knows why",
-        (Step("c", 0.5),),
-    )
+    why = Why((Step("b did it", 2.0, "b.py, line 2"), Step("a did it", 1.0)), "and nobody knows why", (Step("c", 0.5),))
     assert texts(why) == [
         "a did it, at 1.000 s",
         "nobody knows why",

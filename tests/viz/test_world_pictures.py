@@ -52,10 +52,7 @@ def colours(svg: str) -> dict[str, int]:
 
 def test_a_world_says_how_large_it_is_and_what_is_in_it():
     view = world_picture(ROOM)
-    assert (
-        view.text
-        == "world small: 4.00 x 3.00 m, 4 wall segments, 1 wall and 2 obstacles (1 of them can be pushed)"
-    )
+    assert view.text == "world small: 4.00 x 3.00 m, 4 wall segments, 1 wall and 2 obstacles (1 of them can be pushed)"
     assert view.alt.startswith("The world small from above: 4.00 by 3.00 m")
     assert world_picture(built_in("empty")).text == "world empty: 10.00 x 10.00 m, nothing in it"
     assert {"orange", "green", "muted"} <= set(colours(view.svg))
@@ -66,12 +63,7 @@ def test_things_of_every_shape_and_colour_are_drawn_and_those_that_move_said():
     things = (
         Obstacle("ball", Sphere(0.2), (1, 1, 0), colour="#123456"),
         Obstacle(
-            "top",
-            Compound(((Box(1, 0.5), (0, 0, 0)), (Cylinder(0.2), (0.5, 0, 0)))),
-            (2, 2, 0),
-            0.8,
-            "sky",
-            bottom=0.7,
+            "top", Compound(((Box(1, 0.5), (0, 0, 0)), (Cylinder(0.2), (0.5, 0, 0)))), (2, 2, 0), 0.8, "sky", bottom=0.7
         ),
         Obstacle("man", Cylinder(0.2), colour="purple", motion=Walk(((0.5, 0.5), (3.5, 0.5)))),
     )
@@ -89,9 +81,7 @@ def test_everything_is_in_the_text_the_alt_text_and_the_picture():
     pose = (2.0, 1.5, math.pi / 2)
     trail = [(1.0, 0.5, 0.0), (2.0, 0.5, 0.0), (2.0, 1.5, 0.0)]
     odom = [(1.0, 0.5), (2.0, 0.5), (2.03, 1.54)]
-    view = world_picture(
-        ROOM, robot=pose, scan=ranges(ROOM, pose), trail=trail, odom=odom, title="A look around"
-    )
+    view = world_picture(ROOM, robot=pose, scan=ranges(ROOM, pose), trail=trail, odom=odom, title="A look around")
     lines = view.text.splitlines()
     assert lines[0].startswith("A look around: 4.00 x 3.00 m")
     assert lines[1] == "burger: pose (2.00, 1.50, 90.0 deg)"
@@ -160,10 +150,7 @@ def test_the_bytes_are_the_same_for_inputs_with_another_last_digit():
 def test_a_full_picture_is_under_60_kilobytes():
     room = built_in("room")
     rng = np.random.default_rng(0)
-    trail = np.cumsum(rng.normal(0, 0.01, (3600, 2)), axis=0) + (
-        0.5,
-        0.8,
-    )  # worse than any way of two minutes
+    trail = np.cumsum(rng.normal(0, 0.01, (3600, 2)), axis=0) + (0.5, 0.8)  # worse than any way of two minutes
     scan = ranges(room, (0, 0, 0)) + rng.normal(0, 0.01, 360)
     view = world_picture(room, robot=(0, 0, 0), scan=scan, trail=trail[::20], odom=trail[::20])
     assert len(view.html.encode()) < 60_000
@@ -183,9 +170,7 @@ def test_a_scan_can_be_one_that_was_taken_elsewhere():
 def test_beams_that_hit_nothing_are_said_and_have_no_point():
     LaserScan = message_class("sensor_msgs/LaserScan")
     step = 2 * math.pi / 360
-    message = LaserScan(
-        angle_min=0.0, angle_max=359 * step, angle_increment=step, range_min=0.12, range_max=3.5
-    )
+    message = LaserScan(angle_min=0.0, angle_max=359 * step, angle_increment=step, range_min=0.12, range_max=3.5)
     message.ranges = [math.inf, -math.inf, math.nan, 0.0, 3.6, 1.0] * 60
     view = world_picture(built_in("empty"), robot=(0, 0, 0), scan=message)
     assert "scan: 60 of 360 beams hit, nearest 1.00 m ahead (-1 deg)" in view.text

@@ -11,12 +11,7 @@ GAP = 12.0
 COLUMN = (WIDTH - 3 * GAP) / 2
 COMPUTERS = (
     ("A laptop", ("RViz", "teleoperation"), "Linux", "screen, keyboard, wireless"),
-    (
-        "The robot's computer",
-        ("navigation", "laser", "motors"),
-        "Linux",
-        "laser scanner, motors, wireless",
-    ),
+    ("The robot's computer", ("navigation", "laser", "motors"), "Linux", "laser scanner, motors, wireless"),
 )
 ROS = (
     "ROS",
@@ -41,9 +36,7 @@ def layers_sheet() -> Sheet:
         for place, node in enumerate(nodes):
             rect = Rect(left + GAP + place * (width + GAP), 38, width, 40)
             sheet.box(rect, "node-fill", "node-line", corner=20, lines=(node,))
-        sheet.box(
-            Rect(left + GAP, 210, COLUMN - 2 * GAP, 46), "page", "line", lines=(system, "an operating system")
-        )
+        sheet.box(Rect(left + GAP, 210, COLUMN - 2 * GAP, 46), "page", "line", lines=(system, "an operating system"))
         sheet.box(Rect(left + GAP, 266, COLUMN - 2 * GAP, 46), "page", "line", lines=("Hardware", hardware))
     sheet.box(Rect(2 * GAP, 98, WIDTH - 4 * GAP, 92), "topic-fill", "topic-line", lines=ROS, bold=True)
     return sheet

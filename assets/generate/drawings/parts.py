@@ -34,9 +34,7 @@ def parts_sheet() -> Sheet:
         sheet.words(name, x + width / 2, y + 28, size=16, anchor="middle", bold=True)
         sheet.words(what, x + width / 2, y + 50, anchor="middle")
         for row, example in enumerate(examples):
-            sheet.words(
-                example, x + width / 2, y + 78 + row * LINE, size=LABEL_SIZE, colour="muted", anchor="middle"
-            )
+            sheet.words(example, x + width / 2, y + 78 + row * LINE, size=LABEL_SIZE, colour="muted", anchor="middle")
     middle = 4 + width + GAP / 2
     for y in (4 + height / 2, 4 + height + GAP + height / 2):
         sheet.words("+", middle, y + 8, size=24, colour="muted", anchor="middle")

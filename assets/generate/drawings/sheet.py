@@ -48,14 +48,7 @@ class Sheet:
         self._parts.append(text(words, x, y, size=size, colour=colour, anchor=anchor, kind=kind))
 
     def box(
-        self,
-        rect: Rect,
-        fill: str,
-        edge: str,
-        *,
-        corner: float = 6.0,
-        lines: tuple[str, ...] = (),
-        bold: bool = False,
+        self, rect: Rect, fill: str, edge: str, *, corner: float = 6.0, lines: tuple[str, ...] = (), bold: bool = False
     ) -> None:
         """A rectangle with round corners, and lines of text in its middle; the first line is bold if `bold`."""
         kinds = f"{self._class(fill, 'fill')} {self._class(edge, 'stroke')}"
@@ -80,12 +73,7 @@ class Sheet:
             self.words(line, x, y + down + 4.5, size=size, anchor="middle", bold=bold and row == 0)
 
     def line(
-        self,
-        start: tuple[float, float],
-        end: tuple[float, float],
-        colour: str = "line",
-        *,
-        dashed: bool = False,
+        self, start: tuple[float, float], end: tuple[float, float], colour: str = "line", *, dashed: bool = False
     ) -> None:
         """A straight line."""
         self._parts.append(

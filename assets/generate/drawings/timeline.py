@@ -58,18 +58,13 @@ def history_sheet() -> Sheet:
         first, *rest = keeper.name.split(" (" if "(" in keeper.name else " with ")
         more = tuple(f"({one}" if "(" in keeper.name else f"with {one}" for one in rest)
         sheet.box(
-            Rect(KEEPER.x, top + 1, KEEPER.width, bottom - top - 2),
-            "group-fill",
-            "group-line",
-            lines=(first, *more),
+            Rect(KEEPER.x, top + 1, KEEPER.width, bottom - top - 2), "group-fill", "group-line", lines=(first, *more)
         )
     sheet.line((AXIS, down(FIRST)), (AXIS, down(LAST)))
     for year in range(FIRST, LAST + 1):
         sheet.line((AXIS - 4, down(year)), (AXIS + 4, down(year)))
         if year < LAST:
-            sheet.words(
-                str(year), AXIS - 8, down(year + 0.5) + 4, size=LABEL_SIZE, colour="muted", anchor="end"
-            )
+            sheet.words(str(year), AXIS - 8, down(year + 0.5) + 4, size=LABEL_SIZE, colour="muted", anchor="end")
     moments = [down(event.year + ((event.month or 12) - 0.5) / 12) for event in EVENTS]
     for event, moment, place in zip(EVENTS, moments, spread(moments, APART), strict=True):
         colour = "blue" if "ROS 2" in event.what else "orange"

@@ -21,8 +21,7 @@ def write(surfaces: Sequence[Shape]) -> str:
     pairs = list(zip(names, surfaces, strict=True))
     effects = "".join(_effect(name, surface) for name, surface in pairs)
     materials = "".join(
-        f'<material id="{name}-material"><instance_effect url="#{name}-effect"/></material>\n'
-        for name in names
+        f'<material id="{name}-material"><instance_effect url="#{name}-effect"/></material>\n' for name in names
     )
     geometries = "".join(_geometry(name, surface) for name, surface in pairs)
     instances = "".join(

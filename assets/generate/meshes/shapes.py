@@ -65,9 +65,7 @@ def prism(outline: ArrayLike, bottom: float, top: float, *, floor: bool = True) 
     flat = np.asarray(outline, dtype=float)
     low, high = (np.column_stack([flat, np.full(len(flat), z)]) for z in (bottom, top))
     count = len(flat)
-    sides = [
-        np.array([low[i], low[j], high[j], high[i]]) for i, j in ((i, (i + 1) % count) for i in range(count))
-    ]
+    sides = [np.array([low[i], low[j], high[j], high[i]]) for i, j in ((i, (i + 1) % count) for i in range(count))]
     return several([high, *([low[::-1]] if floor else []), *sides])
 
 

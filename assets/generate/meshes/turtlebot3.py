@@ -54,11 +54,7 @@ def rounded(length: float, width: float, radius: float, steps: int = 4) -> Float
 
 
 def holes(
-    half_length: float,
-    half_width: float,
-    tops: Sequence[float],
-    inside: Callable[[float, float], bool],
-    deep: int = 1,
+    half_length: float, half_width: float, tops: Sequence[float], inside: Callable[[float, float], bool], deep: int = 1
 ) -> Shape:
     """The dark square holes of the plates: all on the highest, and only the `deep` outer rows, which show, below it."""
     size = 0.0036
@@ -96,9 +92,7 @@ def tyre() -> list[Shape]:
         (0.021, -half), (core - 0.002, -half), (core, -half + 0.002),
         (core, half - 0.002), (core - 0.002, half), (0.021, half),
     ]  # fmt: skip
-    treads = [
-        each for i in range(20) for each in _tread(2 * math.pi * i / 20, core - 0.0004, radius, half - 0.0012)
-    ]
+    treads = [each for i in range(20) for each in _tread(2 * math.pi * i / 20, core - 0.0004, radius, half - 0.0012)]
     spokes = [
         each.moved(_about_y(2 * math.pi * i / 5))
         for i in range(5)
@@ -156,19 +150,10 @@ def r200() -> list[Shape]:
     outline = rounded(0.130, 0.020, 0.0095, 5)
     turned = np.array([[0, 0, 1.0, middle[0]], [1, 0, 0, middle[1]], [0, 1, 0, middle[2]], [0, 0, 0, 1]])
     body = [each.moved(turned) for each in prism(outline, -0.0045, 0.0045)]
-    front = [
-        each.moved(turned) for each in prism(rounded(0.110, 0.014, 0.0065, 4), 0.0045, 0.0052, floor=False)
-    ]
-    eyes = [
-        rod(0.0042, 0.0, 0.0009, 14, "x").at(middle[0] + 0.0052, y, middle[2]) for y in (0.020, 0.083, 0.110)
-    ]
+    front = [each.moved(turned) for each in prism(rounded(0.110, 0.014, 0.0065, 4), 0.0045, 0.0052, floor=False)]
+    eyes = [rod(0.0042, 0.0, 0.0009, 14, "x").at(middle[0] + 0.0052, y, middle[2]) for y in (0.020, 0.083, 0.110)]
     foot = box((0.000, 0.065, -0.002), (0.012, 0.030, 0.006))
-    return [
-        join(body, METAL, "body"),
-        join(front, CHIP, "front"),
-        join(eyes, GLASS, "eyes"),
-        join(foot, SERVO, "foot"),
-    ]
+    return [join(body, METAL, "body"), join(front, CHIP, "front"), join(eyes, GLASS, "eyes"), join(foot, SERVO, "foot")]
 
 
 def pi_camera() -> list[Shape]:
@@ -176,10 +161,7 @@ def pi_camera() -> list[Shape]:
     x, y, z = 0.005, 0.011, 0.013
     return [
         join(
-            [
-                *box((x - 0.004, y, z), (0.004, 0.030, 0.027)),
-                *box((x - 0.001, y, 0.001), (0.015, 0.030, 0.003)),
-            ],
+            [*box((x - 0.004, y, z), (0.004, 0.030, 0.027)), *box((x - 0.001, y, 0.001), (0.015, 0.030, 0.003))],
             SERVO,
             "holder",
         ),
@@ -209,9 +191,7 @@ def burger_base() -> list[Shape]:
     )
     plates = [each for z in floors for each in prism(outline, z, z + THICKNESS)]
     corners = [(x, y) for x in (-0.050, 0.050) for y in (-0.047, 0.047)]
-    motors = [
-        each for side in (-1, 1) for each in box((0.032, side * 0.0405, 0.0275), (0.0285, 0.043, 0.034))
-    ]
+    motors = [each for side in (-1, 1) for each in box((0.032, side * 0.0405, 0.0275), (0.0285, 0.043, 0.034))]
     horns = [rod(0.0085, -0.0045, 0.0045, 12, "y").at(0.032, side * 0.0665, 0.023) for side in (-1, 1)]
     z1, z2 = floors[1] + THICKNESS, floors[2] + THICKNESS
     return [
@@ -253,14 +233,8 @@ def _parts_on_boards(z1: float, z2: float, x1: float = 0.0, x2: float = -0.006) 
         *box((x2 - 0.014, -0.008, z2 + 0.001), (0.012, 0.012, 0.002)),
         *box((x2, 0.0245, z2 + 0.004), (0.051, 0.005, 0.008)),
     ]
-    sockets = [
-        each
-        for y in (-0.019, 0.0, 0.019)
-        for each in box((x2 - 0.037, y, z2 + 0.007), (0.017, 0.0145, 0.014))
-    ]
-    sockets += [
-        each for y in (-0.025, -0.010) for each in box((x1 + 0.047, y, z1 + 0.004), (0.012, 0.011, 0.008))
-    ]
+    sockets = [each for y in (-0.019, 0.0, 0.019) for each in box((x2 - 0.037, y, z2 + 0.007), (0.017, 0.0145, 0.014))]
+    sockets += [each for y in (-0.025, -0.010) for each in box((x1 + 0.047, y, z1 + 0.004), (0.012, 0.011, 0.008))]
     return [join(chips, CHIP, "chips"), join(sockets, METAL, "sockets")]
 
 
@@ -315,9 +289,7 @@ def waffle_base() -> list[Shape]:
 def joule() -> list[Shape]:
     """The Waffle's computer: an Intel Joule on its board, with fins to cool it."""
     x, z = -0.070, ON_SECOND + 0.010
-    fins = [
-        each for i in range(7) for each in box((x + (i - 3) * 0.005, 0.0, z + 0.011), (0.0018, 0.040, 0.012))
-    ]
+    fins = [each for i in range(7) for each in box((x + (i - 3) * 0.005, 0.0, z + 0.011), (0.0018, 0.040, 0.012))]
     return [
         board(x, 0.0, z, 0.070, 0.085, PI_BOARD, "joule"),
         join([*box((x, 0.0, z + 0.0035), (0.040, 0.042, 0.004)), *fins], METAL, "cooler"),
@@ -328,9 +300,7 @@ def joule() -> list[Shape]:
 def raspberry_pi() -> list[Shape]:
     """The Waffle Pi's computer."""
     x, z = -0.070, ON_SECOND + 0.010
-    sockets = [
-        each for y in (-0.019, 0.0, 0.019) for each in box((x - 0.037, y, z + 0.0086), (0.017, 0.0145, 0.014))
-    ]
+    sockets = [each for y in (-0.019, 0.0, 0.019) for each in box((x - 0.037, y, z + 0.0086), (0.017, 0.0145, 0.014))]
     chips = [
         *box((x + 0.010, 0.006, z + 0.0026), (0.015, 0.015, 0.002)),
         *box((x, 0.0245, z + 0.0056), (0.051, 0.005, 0.008)),

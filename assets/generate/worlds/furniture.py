@@ -30,16 +30,12 @@ def block(
     return [Obstacle(name, Box(*size), pose, height, colour, mass)]
 
 
-def post(
-    name: str, radius: float, pose: Pose, height: float = 0.8, colour: Colour = "green"
-) -> list[Obstacle]:
+def post(name: str, radius: float, pose: Pose, height: float = 0.8, colour: Colour = "green") -> list[Obstacle]:
     """Something round: a plant, a bin, a pillar."""
     return [Obstacle(name, Cylinder(radius), pose, height, colour)]
 
 
-def corner(
-    name: str, corners: Iterable[tuple[float, float]], height: float, colour: Colour
-) -> list[Obstacle]:
+def corner(name: str, corners: Iterable[tuple[float, float]], height: float, colour: Colour) -> list[Obstacle]:
     """Something of any outline, its corners in the world."""
     return [Obstacle(name, Polygon(tuple(corners)), (0.0, 0.0, 0.0), height, colour)]
 
@@ -49,9 +45,7 @@ def table(
 ) -> list[Obstacle]:
     """A table on four legs."""
     x, y = size[0] / 2 - 0.06, size[1] / 2 - 0.06
-    parts: list[tuple[str, Shape, Pose, float, float]] = [
-        ("top", Box(*size), (0.0, 0.0, 0.0), height - 0.04, height)
-    ]
+    parts: list[tuple[str, Shape, Pose, float, float]] = [("top", Box(*size), (0.0, 0.0, 0.0), height - 0.04, height)]
     parts += _legs([(-x, -y), (x, -y), (x, y), (-x, y)], height - 0.04, 0.03)
     return _built(name, pose, parts, colour)
 

@@ -79,11 +79,7 @@ def walls(right: NDArray[np.bool_], up: NDArray[np.bool_]) -> list[Obstacle]:
         closed = np.ones(columns, bool) if row in (0, rows) else ~up[row - 1]
         for a, b in _runs(closed):
             found += wall(
-                f"row {row} {a}",
-                (line(a) - half, line(row)),
-                (line(b) + half, line(row)),
-                THICKNESS,
-                height=HEIGHT,
+                f"row {row} {a}", (line(a) - half, line(row)), (line(b) + half, line(row)), THICKNESS, height=HEIGHT
             )
     for column in range(columns + 1):
         closed = np.ones(rows, bool) if column in (0, columns) else ~right[:, column - 1]

@@ -116,9 +116,7 @@ def _open_plan() -> list[Obstacle]:
         for side, (y, turn) in enumerate(((-3.2, 0), (-4.04, 180)), 1):
             ahead = -1 if turn else 1
             found += desk(f"team desk {i}{side}", (1.6, 0.8), facing(x, y, turn))
-            found += chair(
-                f"team chair {i}{side}", facing(x + 0.2 * ahead, y + 0.62 * ahead, -90 * ahead), "sky"
-            )
+            found += chair(f"team chair {i}{side}", facing(x + 0.2 * ahead, y + 0.62 * ahead, -90 * ahead), "sky")
         found += block(f"partition {i}", (1.6, 0.04), facing(x, -3.62), 1.1, "grey")
     return [
         *found,
@@ -158,12 +156,7 @@ def _doors() -> list[Obstacle]:
     slide = Door(1.2, slide=math.pi, open=15.0, closed=5.0, phase=3.0)
     return [
         _leaf("door of office 1", 1.0, (-8.1, NORTH), Door(hinge=(-0.47, 0.0), open=12.0, closed=6.0)),
-        _leaf(
-            "door of the copy room",
-            0.9,
-            (8.55, NORTH),
-            Door(hinge=(-0.42, 0.0), open=10.0, closed=8.0, phase=7.0),
-        ),
+        _leaf("door of the copy room", 0.9, (8.55, NORTH), Door(hinge=(-0.42, 0.0), open=10.0, closed=8.0, phase=7.0)),
         _leaf("door of the meeting room", 1.26, (4.2, NORTH + INNER / 2 + LEAF / 2 + 0.01), slide),
     ]
 

@@ -33,24 +33,17 @@ def pillars() -> World:
         for row, x in enumerate((-SPACING, 0.0, SPACING), 1)
         for column, y in enumerate((-SPACING, 0.0, SPACING), 1)
     ]
-    inner, outer = (
-        _hexagon(INSIDE / math.cos(math.pi / 6)),
-        _hexagon((INSIDE + THICKNESS) / math.cos(math.pi / 6)),
-    )
+    inner, outer = (_hexagon(INSIDE / math.cos(math.pi / 6)), _hexagon((INSIDE + THICKNESS) / math.cos(math.pi / 6)))
     for i in range(6):
         after = (i + 1) % 6
         corners = (inner[i], outer[i], outer[after], inner[after])
-        things.append(
-            Obstacle(f"turtlebot3_world::fence {i + 1}", Polygon(corners), (0.0, 0.0, 0.0), HEIGHT, "wall")
-        )
+        things.append(Obstacle(f"turtlebot3_world::fence {i + 1}", Polygon(corners), (0.0, 0.0, 0.0), HEIGHT, "wall"))
     names = ("head", "left front foot", "left hind foot", "tail", "right hind foot", "right front foot")
     for i, name in enumerate(names):
         size = {"head": 1.8, "tail": 0.6}.get(name, 1.0) * POST
         x, y = _hexagon((INSIDE + THICKNESS) / math.cos(math.pi / 6) + size - 0.03)[i]
         things.append(
-            Obstacle(
-                f"turtlebot3_world::{name}", Polygon(tuple(_hexagon(size))), (x, y, 0.0), HEIGHT, "green"
-            )
+            Obstacle(f"turtlebot3_world::{name}", Polygon(tuple(_hexagon(size))), (x, y, 0.0), HEIGHT, "green")
         )
     return World("pillars", tuple(things), starts=STARTS)
 

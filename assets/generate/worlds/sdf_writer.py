@@ -121,9 +121,7 @@ def _solid(name: str, shape: Simple, pose: Pose, thing: Obstacle) -> Iterator[st
     if isinstance(shape, Box):
         inner = f"<box><size>{_number(shape.length)} {_number(shape.width)} {_number(tall)}</size></box>"
     elif isinstance(shape, Cylinder):
-        inner = (
-            f"<cylinder><radius>{_number(shape.radius)}</radius><length>{_number(tall)}</length></cylinder>"
-        )
+        inner = f"<cylinder><radius>{_number(shape.radius)}</radius><length>{_number(tall)}</length></cylinder>"
     elif isinstance(shape, Sphere):
         inner = f"<sphere><radius>{_number(shape.radius)}</radius></sphere>"
         z = thing.bottom + shape.radius
@@ -145,9 +143,7 @@ def _solid(name: str, shape: Simple, pose: Pose, thing: Obstacle) -> Iterator[st
 
 
 def _surface(thing: Obstacle) -> Iterator[str]:
-    bounce = (
-        f"<bounce><restitution_coefficient>{_number(thing.restitution)}</restitution_coefficient></bounce>"
-    )
+    bounce = f"<bounce><restitution_coefficient>{_number(thing.restitution)}</restitution_coefficient></bounce>"
     mu = "" if thing.drag is None else _number(thing.drag)
     friction = f"<friction><ode><mu>{mu}</mu><mu2>{mu}</mu2></ode></friction>"
     if thing.restitution or thing.drag is not None:
@@ -156,11 +152,7 @@ def _surface(thing: Obstacle) -> Iterator[str]:
 
 def _door(door: Door) -> Iterator[str]:
     kind = "revolute" if door.slide is None else "prismatic"
-    axis = (
-        "0 0 1"
-        if door.slide is None
-        else f"{_number(math.cos(door.slide))} {_number(math.sin(door.slide))} 0"
-    )
+    axis = "0 0 1" if door.slide is None else f"{_number(math.cos(door.slide))} {_number(math.sin(door.slide))} 0"
     low, high = sorted((0.0, door.opening))
     yield f'      <joint name="hinge" type="{kind}">\n        <parent>world</parent>\n        <child>link</child>\n'
     yield f"        <pose>{_pose((*door.hinge, 0.0))}</pose>\n        <axis>\n          <xyz>{axis}</xyz>\n"

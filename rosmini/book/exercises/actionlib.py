@@ -14,14 +14,7 @@ from rosmini.core.actionlib import (
     Status,
 )
 from rosmini.core.graph import Graph
-from rosmini.msgs.actionlib.msg import (
-    TestAction,
-    TestFeedback,
-    TestGoal,
-    TestResult,
-    TwoIntsAction,
-    TwoIntsGoal,
-)
+from rosmini.msgs.actionlib.msg import TestAction, TestFeedback, TestGoal, TestResult, TwoIntsAction, TwoIntsGoal
 
 # ---- possible_ends: where can it end? ----
 
@@ -33,9 +26,7 @@ def _ends(status: Status) -> set[Status]:
     return {end for after in nexts for end in _ends(after)}
 
 
-@exercise(
-    "possible_ends", praise="An accepted goal cannot be rejected or recalled: the robot may have moved."
-)
+@exercise("possible_ends", praise="An accepted goal cannot be rejected or recalled: the robot may have moved.")
 def possible_ends(answer: Any) -> None:
     """The final statuses that a goal can still reach."""
     for status in Status:
@@ -49,11 +40,7 @@ def possible_ends(answer: Any) -> None:
             "take them from the dictionaries unchanged",
         )
         if status.is_terminal:
-            expect(
-                found == expected,
-                f"{status.name} is final, so the only end is itself.",
-                "check status.is_terminal",
-            )
+            expect(found == expected, f"{status.name} is final, so the only end is itself.", "check status.is_terminal")
         missing = sorted(end.name for end in expected - found)
         expect(
             not missing,
@@ -61,9 +48,7 @@ def possible_ends(answer: Any) -> None:
             "follow the arrows from every status that you reach, not only from the first",
         )
         extra = sorted(end.name for end in found - expected)
-        expect(
-            not extra, f"From {status.name} a goal cannot reach {', '.join(extra)}.", "look at figure 91.2"
-        )
+        expect(not extra, f"From {status.name} a goal cannot reach {', '.join(extra)}.", "look at figure 91.2")
 
 
 # ---- start_counter: count ----
@@ -160,10 +145,7 @@ def ask_with_patience(answer: Any) -> None:
         _count(graph)
         client = SimpleActionClient(graph.node("check"), "count", TestAction)
         client.wait_for_server(1.0)
-        for far, seconds, status, number, took in (
-            (2, 10.0, "SUCCEEDED", 2, 2.0),
-            (9, 3.5, "PREEMPTED", 3, 4.0),
-        ):
+        for far, seconds, status, number, took in ((2, 10.0, "SUCCEEDED", 2, 2.0), (9, 3.5, "PREEMPTED", 3, 4.0)):
             begin = graph.now()
             found = answer(client, TestGoal(far), seconds)
             spent = (graph.now() - begin).to_sec()
@@ -193,9 +175,7 @@ def ask_with_patience(answer: Any) -> None:
 # ---- start_adder: choose your goals ----
 
 
-@exercise(
-    "start_adder", praise="A rejected goal was never ACTIVE, so the client knows that nothing has started."
-)
+@exercise("start_adder", praise="A rejected goal was never ACTIVE, so the client knows that nothing has started.")
 def start_adder(answer: Any) -> None:
     """A server that rejects some goals."""
     with Graph() as graph:

@@ -95,8 +95,7 @@ def _check_pose(message: Any, wanted: tuple[float, float, float]) -> None:
     )
     q = pose.orientation
     expect(
-        abs(math.hypot(q.z, q.w) - 1) < 1e-3
-        and abs(math.remainder(2 * math.atan2(q.z, q.w) - yaw, math.tau)) < 1e-3,
+        abs(math.hypot(q.z, q.w) - 1) < 1e-3 and abs(math.remainder(2 * math.atan2(q.z, q.w) - yaw, math.tau)) < 1e-3,
         "Its orientation does not match the parameter yaw.",
         "z is sin(yaw / 2), w is cos(yaw / 2)",
     )

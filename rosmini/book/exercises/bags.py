@@ -43,8 +43,7 @@ def message_counts(answer: Any) -> None:
     found = answer(bag)
     expect_type(found, dict, "It returned", "a dictionary")
     expect(
-        set(found) == {"/chatter", "/news"},
-        f"The topics of the test bag are /chatter and /news, not {sorted(found)}.",
+        set(found) == {"/chatter", "/news"}, f"The topics of the test bag are /chatter and /news, not {sorted(found)}."
     )
     expect(
         found == {"/chatter": 5, "/news": 1},
@@ -111,15 +110,13 @@ def fast_commands(answer: Any) -> None:
 
 
 @exercise(
-    "distance_driven",
-    praise="The sum of small steps counts every turn; the distance between the ends would not.",
+    "distance_driven", praise="The sum of small steps counts every turn; the distance between the ends would not."
 )
 def distance_driven(answer: Any) -> None:
     """The length of the path recorded on /odom [m]."""
     square = [(0, 0), (1, 0), (1, 2), (-0.5, 2), (-0.5, 0)]
     bag = _bag(
-        [("/odom", _odometry(x, y), float(i)) for i, (x, y) in enumerate(square)]
-        + [("/news", String("x"), 1.5)]
+        [("/odom", _odometry(x, y), float(i)) for i, (x, y) in enumerate(square)] + [("/news", String("x"), 1.5)]
     )
     found = answer(bag)
     expect_type(found, int | float, "It returned", "a number of metres")

@@ -14,13 +14,7 @@ from rosmini.ros.catkin import CatkinError, Report, Workspace, make
 WORKSPACES: tuple[dict[str, list[str]], ...] = (
     {"alarm": ["rospy", "bumper_msgs"], "bumper_msgs": ["std_msgs"]},
     {"zoo": [], "ape": ["zoo", "rospy"], "bear": ["ape"], "cat": ["bear", "zoo"], "dog": []},
-    {
-        "robot": ["arm", "base"],
-        "arm": ["motor"],
-        "base": ["motor", "tf"],
-        "motor": ["robot_msgs"],
-        "robot_msgs": [],
-    },
+    {"robot": ["arm", "base"], "arm": ["motor"], "base": ["motor", "tf"], "motor": ["robot_msgs"], "robot_msgs": []},
     {},
 )
 
@@ -59,8 +53,7 @@ def build_order(answer: Any) -> None:
                 "detect it, and raise ValueError(...)",
             ) from error
         raise Wrong(
-            f"{needs} contains a cycle, but your function returned {found!r}.",
-            "detect it, and raise ValueError(...)",
+            f"{needs} contains a cycle, but your function returned {found!r}.", "detect it, and raise ValueError(...)"
         )
 
 

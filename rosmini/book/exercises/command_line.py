@@ -34,9 +34,7 @@ def commands(answer: object) -> None:
         expect(
             " ".join(words[:2]) in right,
             f"{question} {said!r} does not answer this.",
-            f"try {tool} -h"
-            if words[:1] == [tool]
-            else "choose the tool named after what the question is about",
+            f"try {tool} -h" if words[:1] == [tool] else "choose the tool named after what the question is about",
         )
 
 

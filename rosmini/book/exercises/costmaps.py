@@ -64,10 +64,7 @@ def _apartment() -> Costmap2D:
     return grid
 
 
-@exercise(
-    "door",
-    praise="The robot's size closes the gap, and the costs lead the plan through the middle of the door.",
-)
+@exercise("door", praise="The robot's size closes the gap, and the costs lead the plan through the middle of the door.")
 def door(answer: Any) -> Any:
     """Three parameters with which the plan passes through the middle of the door."""
     names = ("robot_radius", "inflation_radius", "cost_scaling_factor")
@@ -76,22 +73,14 @@ def door(answer: Any) -> Any:
         expect(name in answer, f"{name} is missing.", "set all three parameters")
         expect_type(answer[name], (int, float), f"{name} is", "a number")
     radius, reach, scaling = (float(answer[name]) for name in names)
-    expect(
-        radius >= 0.105,
-        f"The Burger is 21 cm wide; a radius of {radius:g} m is too small.",
-        "use at least 0.105",
-    )
+    expect(radius >= 0.105, f"The Burger is 21 cm wide; a radius of {radius:g} m is too small.", "use at least 0.105")
     inscribed, _ = radii(padded(footprint_from_radius(radius), 0.01))
-    costmap = inflated(
-        _apartment(), inscribed_radius=inscribed, inflation_radius=reach, cost_scaling_factor=scaling
-    )
+    costmap = inflated(_apartment(), inscribed_radius=inscribed, inflation_radius=reach, cost_scaling_factor=scaling)
     search = NavfnSearch(costmap.costs, START, GOAL)
     search.expand()
     if not search.arrived:
         view = costmap.show(title="No path leads through the wall")
-        raise Wrong(
-            "There is no path: inflation closes the door.", "the radius must be less than half of 80 cm", view
-        )
+        raise Wrong("There is no path: inflation closes the door.", "the radius must be less than half of 80 cm", view)
     path = search.path()
     view = costmap.show(plan=(path + 0.5) * CELL, title="The plan with your numbers")
     at_wall = path[(path[:, 0] >= WALL[0]) & (path[:, 0] < WALL[1]), 1] + 0.5
@@ -125,9 +114,7 @@ class _Costmap:
 
     def explain(self, mx: int, my: int) -> CellCosts:
         here = (mx, my) == (5, 3)
-        return CellCosts(
-            self.grid, mx, my, {n: (cost if here else 0, "") for n, cost in self._layers.items()}
-        )
+        return CellCosts(self.grid, mx, my, {n: (cost if here else 0, "") for n, cost in self._layers.items()})
 
 
 @exercise("blocker", praise="The answer names the cause: the map, the laser, or the inflation.")
@@ -222,11 +209,7 @@ def _tried(trial: Trial, costmap: Any) -> Any:
         "observation_sources lists the names of blocks; one of them needs marking: true",
     )
     radius = costmap.inscribed_radius
-    require(
-        radius < 0.25,
-        f"The robot's inscribed radius is {radius:.2f} m: a Burger is smaller.",
-        "set robot_radius",
-    )
+    require(radius < 0.25, f"The robot's inscribed radius is {radius:.2f} m: a Burger is smaller.", "set robot_radius")
     levels = {int(value) for value in np.unique(grid.costs)}
     require(
         253 in levels and bool(levels & set(range(1, 253))),
@@ -236,9 +219,7 @@ def _tried(trial: Trial, costmap: Any) -> Any:
     final = shown("The costmap of your file")
     trial.robot.drag("crate", (-0.5, 1.3, 0.0))
     trial.run(2.0)
-    require(
-        box() < 254, "The crate is gone, but its cells are still lethal.", "a source needs clearing: true"
-    )
+    require(box() < 254, "The crate is gone, but its cells are still lethal.", "a source needs clearing: true")
     before = grid.origin
     node = trial.graph.node("driver")
     cmd_vel, command = node.publisher("cmd_vel", Twist, queue_size=1), Twist()

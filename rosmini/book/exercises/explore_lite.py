@@ -19,18 +19,8 @@ CASES: tuple[tuple[Frontiers, tuple[float, float, float, float], int | None, str
         0,
         "with a large potential_scale the near frontier is the cheapest",
     ),
-    (
-        [(1.0, 10), (2.0, 18), (6.0, 60)],
-        (24.0, 1.0, 0.75, 0.05),
-        1,
-        "frontiers that are too short are ignored",
-    ),
-    (
-        [(1.0, 10), (2.0, 15)],
-        (3.0, 1.0, 0.75, 0.05),
-        1,
-        "a frontier of exactly the minimum length is long enough",
-    ),
+    ([(1.0, 10), (2.0, 18), (6.0, 60)], (24.0, 1.0, 0.75, 0.05), 1, "frontiers that are too short are ignored"),
+    ([(1.0, 10), (2.0, 15)], (3.0, 1.0, 0.75, 0.05), 1, "a frontier of exactly the minimum length is long enough"),
     ([(1.0, 10)], (3.0, 1.0, 0.75, 0.05), None, "no frontier is long enough"),
     ([], (3.0, 1.0, 0.0, 0.05), None, "there are no frontiers"),
     (
@@ -103,17 +93,13 @@ def _cost(potential: float, gain: float, distance: float, length: float) -> floa
     return potential * distance * R - gain * length
 
 
-@exercise(
-    "cautious", praise="The robot prefers short trips and returns at the end.", truths=("return_to_init",)
-)
+@exercise("cautious", praise="The robot prefers short trips and returns at the end.", truths=("return_to_init",))
 def cautious(answer: Any) -> None:
     """Parameters that weigh distance and size as the task asks."""
     expect_type(answer, dict, "parameters is", "a dictionary")
     known = {"gain_scale", "potential_scale", "min_frontier_size", "progress_timeout", "return_to_init"}
     expect(
-        answer.get("gain_scale") == 1,
-        f"gain_scale is {answer.get('gain_scale')!r}, not 1.",
-        "the task gives its value",
+        answer.get("gain_scale") == 1, f"gain_scale is {answer.get('gain_scale')!r}, not 1.", "the task gives its value"
     )
     potential = answer.get("potential_scale")
     ok = isinstance(potential, int | float) and not isinstance(potential, bool)

@@ -82,9 +82,7 @@ def repaired(answer: object) -> None:
     package = _package(str(answer))
     expect(package.name == "patrol", f"The package is now called {package.name!r}, not 'patrol'.")
     missing = [name for name in NEEDS if name not in package.exec_depends]
-    expect(
-        not missing, f"It does not declare that it needs {', '.join(missing)} to run.", "use <exec_depend>"
-    )
+    expect(not missing, f"It does not declare that it needs {', '.join(missing)} to run.", "use <exec_depend>")
     extra = [name for name in package.exec_depends if name not in NEEDS]
     expect(not extra, f"It does not need {', '.join(extra)}.", "compare with the imports of the script")
 

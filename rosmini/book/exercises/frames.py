@@ -39,8 +39,7 @@ def nearest_to_base(answer: Any) -> None:
     expect_type(found, int | float, "It returned", "a number", "take the smallest distance")
     expect(
         abs(found - 0.4) < 1e-6,
-        "With a laser 0.5 m ahead that faces left, the nearest point is 0.40 m from base_link, "
-        f"not {found:.2f} m.",
+        f"With a laser 0.5 m ahead that faces left, the nearest point is 0.40 m from base_link, not {found:.2f} m.",
         "transform the points of the scan to base_link, then take the smallest hypot(x, y)",
     )
     turned = ("base_link", "front_laser", from_yaw(0.5, 0.0, -math.pi / 2, z=1.0), 6)

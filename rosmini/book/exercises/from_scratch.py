@@ -38,9 +38,7 @@ def cures(answer: object) -> None:
     given: dict[object, object] = dict(answer)  # type: ignore[call-overload]
     missing = [number for number in CURES if number not in given]
     expect(not missing, f"There is no command for message {next(iter(missing), None)}.")
-    letters = {
-        number: COMMANDS.get(str(word).strip(), str(word).strip().lower()) for number, word in given.items()
-    }
+    letters = {number: COMMANDS.get(str(word).strip(), str(word).strip().lower()) for number, word in given.items()}
     wrong = [number for number, letter in CURES.items() if letters[number] != letter]
     said = f"{len(wrong)} of 4 commands would not help; start with message {next(iter(wrong), None)}."
     expect(not wrong, said, "read which file or command the message names")
@@ -117,9 +115,7 @@ def obey(answer: Script) -> Any:
             before = trial.robot.truth()
             commands.clear()
             _say(trial, order, word, 0.5)
-            expect(
-                commands, f"There is no message on /cmd_vel after the word {word!r}.", "publish one for each"
-            )
+            expect(commands, f"There is no message on /cmd_vel after the word {word!r}.", "publish one for each")
             moved = _moved(before, trial.robot.truth())
             for wanted, got, what in ((ahead, moved[0], "drive ahead"), (left, moved[1], "turn left")):
                 sign = (got > 0.005) - (got < -0.005)
@@ -168,6 +164,4 @@ def parrot(answer: Script) -> None:
             trial.run(1.0)
     expect(heard, "There was no message on /echo.", "publish the message that the callback receives")
     expect(len(heard) > 2, "Only one copy has answered.", "anonymous=True gives each a unique name")
-    expect(
-        heard == ["hello", "hello", "robot", "robot"], f"The messages on /echo were {', '.join(heard[:6])}."
-    )
+    expect(heard == ["hello", "hello", "robot", "robot"], f"The messages on /echo were {', '.join(heard[:6])}.")

@@ -84,8 +84,7 @@ def clicker(answer: Script) -> None:
             "publish four corners, in order around the square",
         )
         expect(
-            math.isclose(abs(area(corners)), 16.0, rel_tol=1e-3)
-            and bool((abs(abs(corners) - 2) < 1e-3).all()),
+            math.isclose(abs(area(corners)), 16.0, rel_tol=1e-3) and bool((abs(abs(corners) - 2) < 1e-3).all()),
             f"Its area is {abs(area(corners)):.1f} m2; a square with sides of 4 m around the origin has 16 m2.",
             "it goes from -2 to 2 along both axes",
         )

@@ -54,11 +54,7 @@ def _check_barrel(model: sdf.SdfModel, name: str, radius: float, height: float, 
     expect(not model.static, "It is static, so it cannot be pushed.", "remove <static>")
     expect(len(model.links) == 1, f"It has {len(model.links)} links, not one.")
     link = model.links[0]
-    expect(
-        len(link.collisions) == 1,
-        f"It has {len(link.collisions)} collisions, not one.",
-        "add one <collision>",
-    )
+    expect(len(link.collisions) == 1, f"It has {len(link.collisions)} collisions, not one.", "add one <collision>")
     collision = link.collisions[0]
     shape = collision.geometry
     expect(shape.kind == "cylinder", f"Its collision is a {shape.kind}, not a cylinder.")
@@ -76,9 +72,7 @@ def _check_barrel(model: sdf.SdfModel, name: str, radius: float, height: float, 
     inertial = link.inertial
     expect(math.isclose(inertial.mass, mass), f"Its mass is {inertial.mass:g} kg, not {mass:g} kg.")
     across, along = mass * (3 * radius**2 + height**2) / 12, mass * radius**2 / 2
-    for axis, found, right in zip(
-        ("ixx", "iyy", "izz"), inertial.inertia, (across, across, along), strict=False
-    ):
+    for axis, found, right in zip(("ixx", "iyy", "izz"), inertial.inertia, (across, across, along), strict=False):
         expect(
             math.isclose(found, right, rel_tol=1e-4),
             f"{axis} is {found:.4g} kg m2, not {right:.4g}.",
@@ -137,19 +131,13 @@ def look_ahead(answer: Any) -> None:
         except RosminiError as error:
             raise Wrong(f"The robot cannot be spawned: {error}") from error
         types = dict(graph.master.getTopicTypes("/check")[2])
-        expect(
-            "/front_scan" in types, "There is no topic /front_scan.", "change <topicName> of the laser plugin"
-        )
+        expect("/front_scan" in types, "There is no topic /front_scan.", "change <topicName> of the laser plugin")
         expect("/scan" not in types, "The topic /scan is still there.")
         heard: list[Any] = []
         graph.node("check").subscriber("/front_scan", LaserScan, heard.append)
         graph.run(1.0)
     _check_scan(heard[-1])
-    expect(
-        _rest(text) == _rest(original),
-        "Another part of the robot has changed.",
-        "change only those four tags",
-    )
+    expect(_rest(text) == _rest(original), "Another part of the robot has changed.", "change only those four tags")
 
 
 def _check_scan(scan: Any) -> None:
@@ -170,9 +158,7 @@ def _rest(text: str) -> list[str]:
     """Return all lines that the exercise does not change."""
     lines = (line.strip() for line in text.splitlines())
     return [
-        line.replace("front_scan", "scan")
-        for line in lines
-        if line and not any(f"<{tag}>" in line for tag in TAGS)
+        line.replace("front_scan", "scan") for line in lines if line and not any(f"<{tag}>" in line for tag in TAGS)
     ]
 
 

@@ -31,14 +31,7 @@ Cell = tuple[int, int]
 @exercise("guess", praise="This is the largest guess with which A* still finds the cheapest path.")
 def guess(answer: Any) -> None:
     """The cost of the cheapest path on an empty floor with steps in eight directions."""
-    pairs = [
-        ((3, 5), (9, 5)),
-        ((3, 5), (3, 1)),
-        ((2, 2), (7, 4)),
-        ((8, 1), (4, 7)),
-        ((6, 6), (1, 1)),
-        ((4, 4), (4, 4)),
-    ]
+    pairs = [((3, 5), (9, 5)), ((3, 5), (3, 1)), ((2, 2), (7, 4)), ((8, 1), (4, 7)), ((6, 6), (1, 1)), ((4, 4), (4, 4))]
     for cheapest in (1, 2.5):
         for cell, goal in pairs:
             found = expect_number(answer(cell, goal, cheapest), "cost")
@@ -191,9 +184,7 @@ def far(answer: Script) -> None:
             question.publish(_pose(place))
             trial.run(0.5)
             where = f"For the goal {place}"
-            expect(
-                asked, f"{where} you did not call move_base/make_plan.", "make_plan(start, goal, tolerance)"
-            )
+            expect(asked, f"{where} you did not call move_base/make_plan.", "make_plan(start, goal, tolerance)")
             request = asked[-1]
             expect(
                 not request.start.header.frame_id,

@@ -29,8 +29,7 @@ def log_likelihood(answer: Any) -> None:
         near = given[given <= 0.1]
         wanted = -(float(np.sum(near**2)) + 0.5 * (len(given) - len(near))) / 0.075
         expect(
-            isinstance(found, (int, float, np.floating))
-            and math.isclose(found, wanted, rel_tol=1e-6, abs_tol=1e-9),
+            isinstance(found, (int, float, np.floating)) and math.isclose(found, wanted, rel_tol=1e-6, abs_tol=1e-9),
             f"{why} The sum is {wanted:.2f}, but you return {found!r}.",
             "near beams add -d**2 / 0.075, all others -0.5 / 0.075",
         )
@@ -41,15 +40,10 @@ def data_of(answer: Any) -> None:
     """Unknown, free and occupied cells, in the order of the message."""
     hits = np.array([[0, 1, 1, 0], [0, 0, 3, 5]])
     visits = np.array([[0, 1, 4, 7], [2, 0, 10, 10]])
-    for threshold, wanted in (
-        (0.25, [-1, 100, 0, 0, 0, -1, 100, 100]),
-        (0.4, [-1, 100, 0, 0, 0, -1, 0, 100]),
-    ):
+    for threshold, wanted in ((0.25, [-1, 100, 0, 0, 0, -1, 100, 100]), (0.4, [-1, 100, 0, 0, 0, -1, 0, 100])):
         found = answer(hits.copy(), visits.copy(), threshold)
         expect(
-            isinstance(found, list),
-            f"It returned a {type(found).__name__}, not a list.",
-            "use array.ravel().tolist()",
+            isinstance(found, list), f"It returned a {type(found).__name__}, not a list.", "use array.ravel().tolist()"
         )
         expect(
             len(found) == len(wanted),

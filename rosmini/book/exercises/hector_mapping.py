@@ -36,9 +36,7 @@ def slopes(answer: Any) -> None:
             "return height, along_x, along_y",
         )
         wanted = surface(corners, fx, fy)
-        for name, mine, right in zip(
-            ("height", "slope along x", "slope along y"), found, wanted, strict=True
-        ):
+        for name, mine, right in zip(("height", "slope along x", "slope along y"), found, wanted, strict=True):
             expect(
                 abs(mine - right) < 1e-6,
                 f"The {name} at fx = {fx:.2f}, fy = {fy:.2f} between {a:.2f}, {b:.2f} (below) and {c:.2f}, {d:.2f} "

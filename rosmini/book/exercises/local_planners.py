@@ -49,12 +49,7 @@ def window(answer: Any) -> None:
         )
         (v, w), (least, most, turn) = velocity, limits
         gain_v, gain_w = accelerations[0] * period, accelerations[1] * period
-        wanted = (
-            max(v - gain_v, least),
-            min(v + gain_v, most),
-            max(w - gain_w, -turn),
-            min(w + gain_w, turn),
-        )
+        wanted = (max(v - gain_v, least), min(v + gain_v, most), max(w - gain_w, -turn), min(w + gain_w, turn))
         for name, value, right in zip(NAMES, found, wanted, strict=True):
             number = expect_number(value, "number")
             expect(
@@ -93,14 +88,7 @@ def manners(answer: Any) -> None:
 # ---- refused_by: which critic ----
 
 RAW = np.array(
-    [
-        [0.0, 12.0, 3.0],
-        [0.0, -1.0, 4.0],
-        [-5.0, -1.0, 2.0],
-        [0.0, 1.0, -3.0],
-        [-5.0, 2.0, -3.0],
-        [0.0, 0.0, 0.0],
-    ]
+    [[0.0, 12.0, 3.0], [0.0, -1.0, 4.0], [-5.0, -1.0, 2.0], [0.0, 1.0, -3.0], [-5.0, 2.0, -3.0], [0.0, 0.0, 0.0]]
 )
 
 
@@ -112,9 +100,7 @@ def refused_by(answer: Any) -> None:
         expect_type(found, list, "It returned", "a list")
         expect(len(found) == len(RAW), f"For {len(RAW)} trajectories it returned {len(found)} entries.")
         for row, given in zip(RAW.tolist(), found, strict=True):
-            asked = [
-                n for n, (value, weight) in enumerate(zip(row, weights, strict=True)) if weight and value < 0
-            ]
+            asked = [n for n, (value, weight) in enumerate(zip(row, weights, strict=True)) if weight and value < 0]
             wanted = asked[0] if asked else None
             expect(
                 (given is None) == (wanted is None) and given == wanted,
@@ -149,11 +135,7 @@ def changes(answer: Any) -> None:
     )
     with TurtleTrial(None) as trial:
         roslaunch(
-            "rosmini_sim",
-            "navigation.launch",
-            "world:=room",
-            graph=trial.graph,
-            console={"capture_output": True},
+            "rosmini_sim", "navigation.launch", "world:=room", graph=trial.graph, console={"capture_output": True}
         )
         _arrives(trial, {**DANCE, **answer})
 

@@ -86,9 +86,7 @@ def polygon(answer: Any) -> Any:
 @exercise("stairs", praise="Your procedure checks whether it is done before it draws.")
 def stairs(answer: Any) -> Any:
     """Five steps, each smaller than the previous one; and no step."""
-    expect(
-        not drawn(answer, "stairs 0 40").lines, "`stairs 0 40` drew something.", "first compare, then draw"
-    )
+    expect(not drawn(answer, "stairs 0 40").lines, "`stairs 0 40` drew something.", "first compare, then draw")
     drawing = drawn(answer, "stairs 5 40")
     found = len(drawing.lines)
     expect(found == 10, f"`stairs 5 40` drew {found} lines, not 10.")
@@ -116,9 +114,7 @@ def visit(answer: Any) -> Any:
     line = f"visit [{' '.join(f'[{x} {y}]' for x, y in PLACES)}]"
     forbidden = sorted(set(_words(answer)) & {"setpos", "setxy", "setx", "sety"})
     expect(
-        not forbidden,
-        f"The program must not use {' and '.join(forbidden)}.",
-        "turn towards a point, then go forward",
+        not forbidden, f"The program must not use {' and '.join(forbidden)}.", "turn towards a point, then go forward"
     )
     for places in (PLACES, ((-50, 20), (30, -70))):
         call = f"visit [{' '.join(f'[{x} {y}]' for x, y in places)}]"
@@ -130,9 +126,7 @@ def visit(answer: Any) -> Any:
             bearing = math.degrees(math.atan2(stroke.end.x - stroke.start.x, stroke.end.y - stroke.start.y))
             ahead = abs(math.remainder(bearing - stroke.end.heading, 360)) < 1
             expect(
-                ahead,
-                "The turtle does not face the point to which it moves.",
-                "use setheading towards ?, then forward",
+                ahead, "The turtle does not face the point to which it moves.", "use setheading towards ?, then forward"
             )
     with Trial("empty") as trial:
         trial.graph.run(0.5)
@@ -163,15 +157,7 @@ def tiny_logo(answer: Script) -> Any:
         publisher = graph.node("speaker").publisher("logo", String)
         graph.run(0.5)
         expect(publisher.num_connections() > 0, "It does not subscribe to `/logo`.")
-        for command in (
-            "forward 45",
-            "right 90",
-            "forward 90",
-            "backflip",
-            "forward far",
-            "right 90",
-            "forward 45",
-        ):
+        for command in ("forward 45", "right 90", "forward 90", "backflip", "forward far", "right 90", "forward 45"):
             publisher.publish(command)
             graph.run(0.5)
         expect(handle.poll() is None, "The script has ended.", "rospy.spin() keeps a node alive")

@@ -125,9 +125,7 @@ def mirror(answer: Script) -> Any:
         trial.start(answer)
         trial.run(0.5)
         expect("/mirror" in trial.graph.nodes, "There is no node /mirror.", 'call rospy.init_node("mirror")')
-        one, two = (
-            window(f"/{name}/turtlesim", graph=trial.graph).turtles["turtle1"] for name in ("one", "two")
-        )
+        one, two = (window(f"/{name}/turtlesim", graph=trial.graph).turtles["turtle1"] for name in ("one", "two"))
         start = two.y
         for ahead, left in DRIVES:
             twist = Twist()

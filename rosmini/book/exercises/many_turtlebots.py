@@ -48,9 +48,7 @@ def _drive(graph: Graph, topic: str, v: float, w: float, seconds: float) -> None
 # ---- spawn_words: one more robot ----
 
 
-@exercise(
-    "spawn_words", praise="Two robots were spawned in a Gazebo world, each with topics in its namespace."
-)
+@exercise("spawn_words", praise="Two robots were spawned in a Gazebo world, each with topics in its namespace.")
 def spawn_words(answer: Any) -> None:
     """The arguments with which rosrun starts spawn_model for another robot."""
     wanted = {"tb3_2": (1.0, -0.5, 1.5), "robby": (-1.0, 0.5, 0.0)}
@@ -63,8 +61,7 @@ def spawn_words(answer: Any) -> None:
             words = answer(name, x, y, yaw)
             if not isinstance(words, list | tuple) or not all(isinstance(word, str) for word in words):
                 raise Wrong(
-                    f"It returned a {type(words).__name__}, not a list of words.",
-                    "text.split() returns a list",
+                    f"It returned a {type(words).__name__}, not a list of words.", "text.split() returns a list"
                 )
             said = StringIO()
             done = rosrun("gazebo_ros", "spawn_model", *words, graph=graph, stdout=said, stderr=said).wait()
@@ -173,9 +170,7 @@ Command = tuple[float, float]
 Choices = list[Command]
 
 
-def _ends(
-    graph: Graph, sim: Simulator, choices: Choices, goal: Sequence[float], *, back: bool
-) -> list[float]:
+def _ends(graph: Graph, sim: Simulator, choices: Choices, goal: Sequence[float], *, back: bool) -> list[float]:
     now, far = sim.save(), []
     for v, w in choices:
         _drive(graph, "tb3_0/cmd_vel", v, w, 3.0)
@@ -190,9 +185,7 @@ def _best(graph: Graph, sim: Simulator, choices: Choices, goal: Sequence[float])
     return choices[far.index(min(far))]
 
 
-@exercise(
-    "rehearse", praise="Your function tried each choice for three seconds and left the world unchanged."
-)
+@exercise("rehearse", praise="Your function tried each choice for three seconds and left the world unchanged.")
 def rehearse(answer: Any) -> None:
     """The command that brings a robot nearest to a goal within three seconds, found by trying each one."""
     choices = [(0.2, 0.0), (0.2, 0.5), (0.2, -0.5), (0.0, 0.0)]

@@ -71,9 +71,7 @@ def classify(answer: Any) -> None:
             found.shape == picture.shape,
             f"An image of the shape {picture.shape} became a map of the shape {found.shape}.",
         )
-        said = (
-            f"Of {picture.tolist()} with free_thresh {free}, occupied_thresh {occupied} and negate {negate}"
-        )
+        said = f"Of {picture.tolist()} with free_thresh {free}, occupied_thresh {occupied} and negate {negate}"
         expect(
             found.tolist() != wanted[::-1],
             f"{said} it returns a map that is upside down.",
@@ -143,9 +141,7 @@ def lift(answer: Script) -> None:
     """A node that makes the server change maps, and handles a missing map."""
     with TurtleTrial(None) as trial:
         # its log contains paths of this machine
-        started = rosrun(
-            "map_server", "map_server", f"{MAPS}floor.yaml", graph=trial.graph, capture_output=True
-        )
+        started = rosrun("map_server", "map_server", f"{MAPS}floor.yaml", graph=trial.graph, capture_output=True)
         server: MapServer = cast("Any", started).instance()
         trial.start(answer)
         button = trial.graph.node("button").publisher("floor", String, queue_size=5)
@@ -169,9 +165,7 @@ def lift(answer: Script) -> None:
                 )
                 continue
             shown = server.grid.path
-            expect(
-                not failed, f"Your script logged an error for {name}, which exists.", "RESULT_SUCCESS is 0"
-            )
+            expect(not failed, f"Your script logged an error for {name}, which exists.", "RESULT_SUCCESS is 0")
             expect(
                 shown is not None and shown.name == name,
                 f"The lift stopped at {name}, but the server has the map {shown and shown.name}.",

@@ -45,9 +45,7 @@ class PlayedMoveBase:
         self.begun: list[Point] = []
         self.cut: list[Point] = []
         self.faults: list[str] = []
-        self.server = SimpleActionServer(
-            self.node, "move_base", MoveBaseAction, self._execute, auto_start=False
-        )
+        self.server = SimpleActionServer(self.node, "move_base", MoveBaseAction, self._execute, auto_start=False)
         self.server.start()
 
     def _execute(self, goal: Any) -> None:
@@ -197,9 +195,7 @@ def _expect_right(grid: Costmap2D, theirs: Sequence[Any], mine: Sequence[Any], w
         f"{where} the plan of navfn has {len(theirs)} poses, but yours has {len(mine)}.",
         "move the poses, and keep all of them",
     )
-    before, after = (
-        np.array([(p.pose.position.x, p.pose.position.y) for p in plan]) for plan in (theirs, mine)
-    )
+    before, after = (np.array([(p.pose.position.x, p.pose.position.y) for p in plan]) for plan in (theirs, mine))
     expect(
         np.allclose(before[-1], after[-1]),
         f"{where} the plan ends at {_named(after[-1])}, but the goal is {_named(before[-1])}.",
@@ -214,11 +210,7 @@ def _expect_right(grid: Costmap2D, theirs: Sequence[Any], mine: Sequence[Any], w
             continue
         cell = grid.world_to_map(*best)
         is_free = cell is not None and grid.cost(*cell) < 253
-        aim, said = (
-            (best, "the point to its right is free")
-            if is_free
-            else (old, "there is an obstacle to its right")
-        )
+        aim, said = (best, "the point to its right is free") if is_free else (old, "there is an obstacle to its right")
         expect(
             math.dist(new, aim) < 0.02,
             f"{where} the pose at {_named(old)} was moved to {_named(new)}, but should be at {_named(aim)}: {said}.",
@@ -250,11 +242,7 @@ def no_turning(answer: Any) -> None:
         expect(False, f"move_base refuses this list: {error}", 'write a list of {"name": ..., "type": ...}')
         return
     kinds = [kind.replace("::", "/") for _, kind in named]
-    expect(
-        "rotate_recovery/RotateRecovery" not in kinds,
-        "With this list the robot turns.",
-        "remove rotate_recovery",
-    )
+    expect("rotate_recovery/RotateRecovery" not in kinds, "With this list the robot turns.", "remove rotate_recovery")
     expect(
         kinds == [CLEAR, CLEAR],
         f"The types are {kinds}.",

@@ -41,9 +41,7 @@ def resolve(answer: Any) -> None:
             "~": "a private name follows the node's full name, without the ~",
         }.get(name[0], "the namespace / already ends with a slash, the others do not")
         expect(
-            found == right,
-            f"{name} resolves to {right} for {node} (namespace {namespace}), not to {found!r}.",
-            hint,
+            found == right, f"{name} resolves to {right} for {node} (namespace {namespace}), not to {found!r}.", hint
         )
 
 
@@ -69,9 +67,7 @@ def _started(arguments: Sequence[str]) -> list[str]:
     return lines[-1].split("|")
 
 
-@exercise(
-    "arguments", praise="Only one argument contains the namespace, and everything else is relative to it."
-)
+@exercise("arguments", praise="Only one argument contains the namespace, and everything else is relative to it.")
 def arguments(answer: Any) -> None:
     """The arguments that set the node name, the topic and the text of a talker."""
     expect_type(answer, (list, tuple), "arguments is", "a list", "[...]")
@@ -79,9 +75,7 @@ def arguments(answer: Any) -> None:
     node, topic, text = _started(answer)
     expect(node == "/crew/eve", f"The node is called {node}, not /crew/eve.", "use __ns:= and __name:=")
     expect(text == "landed", f"It says {text!r}, not 'landed'.", "use _text:=, with one underscore")
-    expect(
-        topic == "/crew/radio/news", f"It publishes on {topic}, not on /crew/radio/news.", "use chatter:=..."
-    )
+    expect(topic == "/crew/radio/news", f"It publishes on {topic}, not on /crew/radio/news.", "use chatter:=...")
     moved = ["__ns:=/team" if word.startswith("__ns:=") else word for word in answer]
     node, topic, _ = _started(moved)
     expect(
@@ -131,10 +125,7 @@ def start_reporter(answer: Any) -> None:
 # ---- find_file: find the file ----
 
 
-@exercise(
-    "find_file",
-    praise="Such an address works wherever the package is, and an overlay can replace the package.",
-)
+@exercise("find_file", praise="Such an address works wherever the package is, and an overlay can replace the package.")
 def find_file(answer: Any) -> None:
     """The file that package://NAME/PATH means, given a list of folders."""
     with TemporaryDirectory() as made:

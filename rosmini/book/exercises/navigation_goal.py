@@ -37,11 +37,7 @@ def goal_of(answer: Any) -> None:
             "return a PoseStamped",
         )
         frame, at = goal.header.frame_id, goal.pose.position
-        expect(
-            frame == "map",
-            f"{pulled} the goal is in the frame {frame!r}, not 'map'.",
-            "set goal.header.frame_id",
-        )
+        expect(frame == "map", f"{pulled} the goal is in the frame {frame!r}, not 'map'.", "set goal.header.frame_id")
         expect(
             math.dist((at.x, at.y), press) < 1e-6,
             f"{pulled} the goal is at ({at.x:g}, {at.y:g}).",
@@ -160,6 +156,4 @@ def waiter(answer: Script) -> None:
                 f"The goal {slow} was cancelled after {took:.1f} s, not after {PATIENCE:g}.",
                 "use a timeout of rospy.Duration(5)",
             )
-            expect(
-                handle.poll() is not None, "The script still runs after the third goal.", "end without spin()"
-            )
+            expect(handle.poll() is not None, "The script still runs after the third goal.", "end without spin()")

@@ -21,8 +21,7 @@ SEEN = {
 
 
 @exercise(
-    "demand",
-    praise="No node subscribes to the commands: the base's driver is not running, or uses another topic.",
+    "demand", praise="No node subscribes to the commands: the base's driver is not running, or uses another topic."
 )
 def demand(answer: Any) -> Any:
     """The first demand is not met: cmd_vel has no subscriber."""

@@ -94,9 +94,7 @@ def stops_from(answer: Script, start: float) -> Any:
 WISHES = ((0.2, 0.0), (0.1, 1.0), (-0.08, -0.6), (0.0, 0.0))
 
 
-@exercise(
-    "gentle", praise="Neither the driver nor the robot had to change: your node fits in between.", gaps=2
-)
+@exercise("gentle", praise="Neither the driver nor the robot had to change: your node fits in between.", gaps=2)
 def gentle(answer: Script) -> Any:
     """The node passes messages from /wish to /cmd_vel at half the speed."""
     got: list[tuple[float, float]] = []
@@ -143,13 +141,7 @@ def introduce(answer: Script) -> Any:
         trial.start(answer)
         moved = distance(trial, 3.0)
         state = graph.ask_as("/check").call("getSystemState")[2]
-        known = {
-            node
-            for registry in state[:2]
-            for topic, nodes in registry
-            if topic == "/cmd_vel"
-            for node in nodes
-        }
+        known = {node for registry in state[:2] for topic, nodes in registry if topic == "/cmd_vel" for node in nodes}
         expect(
             not known & {"/simulator", "/driver"},
             "You registered them with the Master. Connect them without changing its registrations.",

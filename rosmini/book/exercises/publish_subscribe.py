@@ -17,9 +17,7 @@ if TYPE_CHECKING:
 # ---- better_service: a better event service ----
 
 
-@exercise(
-    "better_service", praise="An error in one subscriber affects neither the publisher nor other subscribers."
-)
+@exercise("better_service", praise="An error in one subscriber affects neither the publisher nor other subscribers.")
 def better_service(answer: Any) -> None:
     """An event service that survives its subscribers."""
     with redirect_stdout(StringIO()):  # it may print anything about a failed callback
@@ -52,17 +50,11 @@ def _examine(service: Any) -> None:
             service.publish("news", event)
         except ValueError:
             expect(
-                False,
-                "A callback failed, and its exception reached the publisher.",
-                "use try and except in publish",
+                False, "A callback failed, and its exception reached the publisher.", "use try and except in publish"
             )
         if event == 1:
             called = [name for name, _ in got]
-            expect(
-                "other" not in called,
-                "A subscriber of another topic was called.",
-                "keep a list for each topic",
-            )
+            expect("other" not in called, "A subscriber of another topic was called.", "keep a list for each topic")
             expect(
                 "third" in called,
                 "A callback failed, and the callbacks after it were not called.",

@@ -107,9 +107,7 @@ def wave(answer: object) -> Any:
             seen.append(trial.robot.truth()[2])
         expect(not made.problem, f"The form has stopped: {made.problem}")
         x, y, _ = trial.robot.truth()
-        expect(
-            abs(x - start_x) + abs(y - start_y) > 0.1, "The robot does not drive.", "give linear/x a value"
-        )
+        expect(abs(x - start_x) + abs(y - start_y) > 0.1, "The robot does not drive.", "give linear/x a value")
         expect(max(seen) > SWING_RAD, "The robot does not turn to the left.", "angular/z must alternate")
         expect(
             min(seen) < -SWING_RAD,

@@ -20,9 +20,7 @@ RED = (255, 0, 0)
 
 def _robot(trial: Trial) -> None:
     """Publish the transforms of the laser, and drive a gentle curve."""
-    StaticTransformBroadcaster(trial.graph.node("state")).send(
-        "base_footprint", "base_scan", (-0.03, 0, 0.18)
-    )
+    StaticTransformBroadcaster(trial.graph.node("state")).send("base_footprint", "base_scan", (-0.03, 0, 0.18))
     node = trial.graph.node("driver")
     cmd_vel, command = node.publisher("cmd_vel", Twist), Twist()
     command.linear.x, command.angular.z = 0.15, 0.3
@@ -45,9 +43,7 @@ SWITCHES = (
 """Properties of the display that are True or False."""
 
 
-@exercise(
-    "properties", praise="Scans stay for ten seconds, so each wall is drawn fifty times.", truths=SWITCHES
-)
+@exercise("properties", praise="Scans stay for ten seconds, so each wall is drawn fifty times.", truths=SWITCHES)
 def properties(answer: Any) -> Any:
     """Properties of a LaserScan display that is red, has points of 5 cm, and keeps scans for ten seconds."""
     expect_type(answer, dict, "properties is", "a dictionary from property to value")
@@ -81,9 +77,7 @@ def properties(answer: Any) -> Any:
             "do not change Style",
         )
         expect(
-            math.isclose(laser["Size (m)"], 0.05),
-            f"A point is {laser['Size (m)']:g} m wide, not 5 cm.",
-            "set Size (m)",
+            math.isclose(laser["Size (m)"], 0.05), f"A point is {laser['Size (m)']:g} m wide, not 5 cm.", "set Size (m)"
         )
         expect(
             math.isclose(laser["Decay Time"], 10.0),

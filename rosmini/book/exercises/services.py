@@ -59,9 +59,7 @@ def counter(answer: Any) -> None:
         _offered(graph, "/counter", "/count", Trigger)
         _offered(graph, "/counter", "/clear", Empty)
         client = graph.node("client")
-        count, clear = (
-            client.service_client(name, kind) for name, kind in (("count", Trigger), ("clear", Empty))
-        )
+        count, clear = (client.service_client(name, kind) for name, kind in (("count", Trigger), ("clear", Empty)))
         answers = [count(), count(), count()]
         clear()
         answers.append(count())
@@ -138,9 +136,7 @@ def secretary(answer: Any) -> None:
             answers.append(ask())
             waited += (graph.now() - start).to_sec()
     found = [(each.success, each.message) for each in answers]
-    expect(
-        waited == 0, f"The answers took {waited:g} s.", "store the status in the callback, for the handler"
-    )
+    expect(waited == 0, f"The answers took {waited:g} s.", "store the status in the callback, for the handler")
     expect(
         found[0] == (False, "nothing yet"),
         f"Before any status it answers {found[0]}.",

@@ -110,11 +110,7 @@ def _examine_robot(robot: StageRobot) -> None:
         f"Its laser covers {math.degrees(laser.fov):.0f} degrees, not 90.",
         "set fov",
     )
-    expect(
-        abs(laser.range_max - 4) < 0.001,
-        f"Its laser reaches {laser.range_max:g} m, not 4.",
-        "use range [0 4]",
-    )
+    expect(abs(laser.range_max - 4) < 0.001, f"Its laser reaches {laser.range_max:g} m, not 4.", "use range [0 4]")
     expect(
         0.1 <= laser.height <= 0.2,
         f"Its laser is {laser.height:.2f} m above the ground, not between 0.1 and 0.2 m.",
@@ -189,11 +185,7 @@ def belief(answer: Any) -> None:
             f"It returned {found!r}, not x, y and heading.",
             "return x, y, heading",
         )
-        wrong = [
-            name
-            for name, a, b in zip(("x", "y", "heading"), found, right, strict=True)
-            if not abs(a - b) < 1e-6
-        ]
+        wrong = [name for name, a, b in zip(("x", "y", "heading"), found, right, strict=True) if not abs(a - b) < 1e-6]
         expect(
             not wrong,
             f"For v {given[0]}, w {given[1]}, {given[2]:.0f} s, e_x {given[3]} and e_a {given[4]}, this is wrong: "

@@ -42,11 +42,7 @@ def keys_for(answer: Any) -> None:
         if not isinstance(found, str):
             raise Wrong(f"It returned a {type(found).__name__} {asked}, not a string.", 'such as "wwd"')
         strange = sorted({key for key in found if key not in "wxad"})
-        expect(
-            not strange,
-            f"{asked[0].upper()}{asked[1:]} your keys contain {strange[:1]}.",
-            "use only w, x, a and d",
-        )
+        expect(not strange, f"{asked[0].upper()}{asked[1:]} your keys contain {strange[:1]}.", "use only w, x, a and d")
         pad = Teleop(Limits(1.0, 10.0))
         for key in found:
             pad.press(key)
@@ -144,9 +140,7 @@ def lock(answer: Any) -> None:
 # ---- where_now: where is it now ----
 
 
-@exercise(
-    "where_now", praise="Drawn into the delayed picture, this pose shows the driver where the robot is now."
-)
+@exercise("where_now", praise="Drawn into the delayed picture, this pose shows the driver where the robot is now.")
 def where_now(answer: Any) -> None:
     """The current pose, from a delayed pose and the commands since then."""
     cases: list[tuple[Pose, list[tuple[float, float, float]], str]] = [

@@ -72,9 +72,7 @@ def culprits(answer: Any) -> None:
         "read the answer: a field is missing",
         "the publisher compares only one field, and it is not the name of the type",
     )
-    for number, (given, right, hint) in enumerate(
-        zip(answer, ("topic", "md5sum", "md5sum"), hints, strict=True), 1
-    ):
+    for number, (given, right, hint) in enumerate(zip(answer, ("topic", "md5sum", "md5sum"), hints, strict=True), 1):
         expect(given == right, f"Connection {number} was not refused because of {given}.", hint)
 
 
@@ -107,10 +105,7 @@ class _Trickle:
             if not data:
                 self._turns += TURNS // 10
             return data
-        raise Wrong(
-            "Your program waits for bytes that never arrive.",
-            "recv returns b'' when the other end has closed",
-        )
+        raise Wrong("Your program waits for bytes that never arrive.", "recv returns b'' when the other end has closed")
 
     def close(self) -> None:
         self._socket.close()
@@ -200,14 +195,8 @@ def decide(answer: Any) -> None:
     clear.header.frame_id = "base_scan"
     frame = answer(clear._encode(clear))
     expect_type(frame, bytes, "It returned", "bytes")
-    expect(
-        len(frame) == 52, f"The frame has {len(frame)} bytes, not 52.", "a length, and six numbers of 8 bytes"
-    )
-    expect(
-        struct.unpack_from("<I", frame)[0] == 48,
-        "The length of the frame is not 48.",
-        'use pack("<I6d", ...)',
-    )
+    expect(len(frame) == 52, f"The frame has {len(frame)} bytes, not 52.", "a length, and six numbers of 8 bytes")
+    expect(struct.unpack_from("<I", frame)[0] == 48, "The length of the frame is not 48.", 'use pack("<I6d", ...)')
     with Graph() as graph:
         sim = rosrun("rosmini_sim", "simulator", "_world:=room", "_noise:=0", graph=graph).instance()
         node = graph.node("by_hand")

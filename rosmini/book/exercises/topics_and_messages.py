@@ -56,9 +56,7 @@ TEXTS = (
 )
 
 
-@exercise(
-    "fingerprint", praise="Add nested types, and you have exactly what ROS compares when nodes connect."
-)
+@exercise("fingerprint", praise="Add nested types, and you have exactly what ROS compares when nodes connect.")
 def fingerprint(answer: Any) -> None:
     """The md5 sum of a definition without nested types."""
     hints = (
@@ -71,18 +69,12 @@ def fingerprint(answer: Any) -> None:
     for text, hint in zip(TEXTS, hints, strict=True):
         found = answer(text)
         expect(isinstance(found, str), f"It returned {found!r}, not a string of 32 digits.", hints[0])
-        expect(
-            found == define_message("demo/Type", text)._md5sum, f"It is not the md5 sum of {text!r}.", hint
-        )
+        expect(found == define_message("demo/Type", text)._md5sum, f"It is not the md5 sum of {text!r}.", hint)
 
 
 # ---- decode: bytes ----
 
-TABLES: tuple[dict[str, float], ...] = (
-    {"left": 1.5, "right": -2.0},
-    {},
-    {"größe": 0.1, "": 3.0, "température": -40.0},
-)
+TABLES: tuple[dict[str, float], ...] = ({"left": 1.5, "right": -2.0}, {}, {"größe": 0.1, "": 3.0, "température": -40.0})
 
 
 def _encode(table: dict[str, float]) -> bytes:

@@ -17,9 +17,7 @@ if TYPE_CHECKING:
 
 
 def _robot(graph: Graph, *parameters: str) -> Simulator:
-    found: Simulator = rosrun(
-        "rosmini_sim", "simulator", "_world:=empty", *parameters, graph=graph
-    ).instance()
+    found: Simulator = rosrun("rosmini_sim", "simulator", "_world:=empty", *parameters, graph=graph).instance()
     return found
 
 
@@ -41,8 +39,7 @@ def _driven(command: Any, seconds: float) -> list[tuple[float, float, float]]:
 
 
 @exercise(
-    "circle",
-    praise="A robot without errors drove your circles: each has the right size and ends where it started.",
+    "circle", praise="A robot without errors drove your circles: each has the right size and ends where it started."
 )
 def circle(answer: Any) -> None:
     """The command for a circle to the left with a given radius and duration."""
@@ -88,10 +85,7 @@ def _scan(ranges: Any, first: float = 0.0) -> Any:
     return scan
 
 
-@exercise(
-    "front_distance",
-    praise="Your function works with any laser, because it reads the angles from the message.",
-)
+@exercise("front_distance", praise="Your function works with any laser, because it reads the angles from the message.")
 def front_distance(answer: Any) -> None:
     """The shortest valid range within an angle of straight ahead."""
 
@@ -158,9 +152,7 @@ def front_distance(answer: Any) -> None:
     for scan, half_width, right, what, hint in shown:
         found = expect_number(answer(scan, half_width), "distance")
         expect(
-            found == right or abs(found - right) < 1e-6,
-            f"For {what} it returned {found:.2f}, not {right:.2f}.",
-            hint,
+            found == right or abs(found - right) < 1e-6, f"For {what} it returned {found:.2f}, not {right:.2f}.", hint
         )
 
 
@@ -256,8 +248,7 @@ def _looks(robot: Any, link: str, kind: type, **sizes: float) -> Any:
 
 
 @exercise(
-    "mast",
-    praise="The mast is there, and every program that reads the description knows the position of its ball.",
+    "mast", praise="The mast is there, and every program that reads the description knows the position of its ball."
 )
 def mast(answer: Any) -> None:
     """A piece of URDF: a mast with a ball on top, for a TurtleBot3 Burger."""

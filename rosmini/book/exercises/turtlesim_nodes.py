@@ -31,9 +31,7 @@ def frog(answer: Any) -> Any:
         try:
             trial.open(*words[3:], *space)
         except RosminiError as error:
-            raise Wrong(
-                f"It does not start: {error}", "each argument contains :=, without spaces around it"
-            ) from error
+            raise Wrong(f"It does not start: {error}", "each argument contains :=, without spaces around it") from error
         names = sorted(set(trial.graph.nodes) - {"/rosout"})
         expect(
             names == ["/pond/frog"],

@@ -63,10 +63,7 @@ def triangle(answer: Script) -> Any:
         state = trial.sim.state()
         metre, size = state["metre"], state["size"]
         lines = [stroke for stroke in state["strokes"] if math.dist(stroke[:2], stroke[2:4]) > 1.0]
-        wanted = {
-            frozenset(_pixel(corner, metre, size) for corner in (CORNERS[i], CORNERS[i - 1]))
-            for i in range(3)
-        }
+        wanted = {frozenset(_pixel(corner, metre, size) for corner in (CORNERS[i], CORNERS[i - 1])) for i in range(3)}
         found = {frozenset(((round(x1), round(y1)), (round(x2), round(y2)))) for x1, y1, x2, y2, *_ in lines}
         said = f"There are {len(lines)} lines, not 3 between the corners."
         expect(

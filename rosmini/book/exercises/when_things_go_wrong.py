@@ -28,11 +28,7 @@ def greet(answer: Script) -> None:
         trial.run(30.0)
         for name, got in heard.items():
             expect(got[0] == "hello", f"/{name} received {got[0]!r}, not 'hello'.")
-            expect(
-                len(got) == 1,
-                f"/{name} received it {len(got)} times.",
-                "publish once; the latch does the rest",
-            )
+            expect(len(got) == 1, f"/{name} received it {len(got)} times.", "publish once; the latch does the rest")
 
 
 # ---- watchdog: a watchdog ----
@@ -84,7 +80,5 @@ def doctor(answer: Script) -> None:
         for topic in wanted:
             expect(topic in found, f"{topic} has no publisher, but was not printed.", "compare the two lists")
         extra = [each for each in found if each not in wanted]
-        expect(
-            not extra, f"It also printed {extra[0] if extra else ''}.", "print only those without a publisher"
-        )
+        expect(not extra, f"It also printed {extra[0] if extra else ''}.", "print only those without a publisher")
         expect(found == wanted, "They are not in alphabetical order, or not unique.", "use sorted(...)")

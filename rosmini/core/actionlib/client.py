@@ -278,12 +278,9 @@ class ActionClient:
         into = [node.subscriptions.get(end.topic) for end in (self._status, self._result, self._feedback)]
         return bool(
             server
+            and all(end and any(sender.destination == server for sender in end.senders.values()) for end in out)
             and all(
-                end and any(sender.destination == server for sender in end.senders.values()) for end in out
-            )
-            and all(
-                end and any(link.is_open and link.peer == server for link in end.connections.values())
-                for end in into
+                end and any(link.is_open and link.peer == server for link in end.connections.values()) for end in into
             )
         )
 
@@ -297,9 +294,7 @@ class ActionClient:
         for _ in range(MAX_POLLS):
             if not self._connected() or self._is_counted():
                 break
-            scheduler.sleep_until(
-                scheduler.now_ns() + POLL_NS, f"the action server of {self.ns} to count its clients"
-            )
+            scheduler.sleep_until(scheduler.now_ns() + POLL_NS, f"the action server of {self.ns} to count its clients")
         return self._connected()
 
     def _is_counted(self) -> bool:

@@ -139,9 +139,7 @@ class ActionServer:
         self.feedback_pub = node.publisher(f"{ns}/feedback", types.action_feedback, queue_size=out)
         hear = partial(node.subscriber, queue_size=into, numpy=self._numpy)
         self.goal_sub = hear(f"{ns}/goal", types.action_goal, self.internal_goal_callback)
-        self.cancel_sub = hear(
-            f"{ns}/cancel", message_class("actionlib_msgs/GoalID"), self.internal_cancel_callback
-        )
+        self.cancel_sub = hear(f"{ns}/cancel", message_class("actionlib_msgs/GoalID"), self.internal_cancel_callback)
         keep = node.get_param(f"{ns}/status_list_timeout", STATUS_LIST_TIMEOUT, expect=float)
         self.status_list_timeout = Duration.from_sec(keep)
         frequency = self._status_frequency()

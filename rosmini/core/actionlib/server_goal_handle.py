@@ -64,9 +64,7 @@ def next_status(status: Status, event: GoalEvent) -> Status:
     hint = ", which is final" if status.is_terminal else ""
     if status is Status.PENDING and event in (GoalEvent.SUCCEED, GoalEvent.ABORT):
         hint = ": call set_accepted() first"
-    raise IllegalTransition(
-        f"{event.value}() is for a goal that is {listed}; this one is {status.name}{hint}."
-    )
+    raise IllegalTransition(f"{event.value}() is for a goal that is {listed}; this one is {status.name}{hint}.")
 
 
 class ServerGoalHandle:
@@ -93,11 +91,7 @@ class ServerGoalHandle:
     def status(self) -> Any:
         """The ``actionlib_msgs/GoalStatus``; an empty one if there is no goal."""
         tracker = self.status_tracker
-        return (
-            message_class("actionlib_msgs/GoalStatus")()
-            if tracker is None or self.goal is None
-            else tracker.status
-        )
+        return message_class("actionlib_msgs/GoalStatus")() if tracker is None or self.goal is None else tracker.status
 
     @property
     def id(self) -> str:

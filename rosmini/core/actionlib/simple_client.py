@@ -25,9 +25,7 @@ class SimpleActionClient:
     rospy.
     """
 
-    def __init__(
-        self, node: Node, ns: str, ActionSpec: Any, *, numpy: bool = True, strict: bool | None = None
-    ) -> None:
+    def __init__(self, node: Node, ns: str, ActionSpec: Any, *, numpy: bool = True, strict: bool | None = None) -> None:
         self.node = node
         self.strict = node.graph.strict if strict is None else strict
         self.action_client = ActionClient(node, ns, ActionSpec, numpy=numpy)
@@ -72,9 +70,7 @@ class SimpleActionClient:
         self.simple_state = SimpleGoalState.PENDING
         self.gh = self.action_client.send_goal(goal, self._moved, self._feed)
 
-    def send_goal_and_wait(
-        self, goal: Any, execute_timeout: Timeout = None, preempt_timeout: Timeout = None
-    ) -> Status:
+    def send_goal_and_wait(self, goal: Any, execute_timeout: Timeout = None, preempt_timeout: Timeout = None) -> Status:
         """Send a goal, wait for its end, and return its final status.
 
         After ``execute_timeout`` the goal is cancelled; the server then has ``preempt_timeout`` to end it

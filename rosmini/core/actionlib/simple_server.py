@@ -126,9 +126,7 @@ class SimpleActionServer:
     def _accept(self) -> Any:
         new, old = self.next_goal, self.current_goal
         if not self.new_goal:
-            self._complain(
-                "accept_new_goal() was called, but no goal is waiting: check is_new_goal_available()"
-            )
+            self._complain("accept_new_goal() was called, but no goal is waiting: check is_new_goal_available()")
             return None
         if old != new and self.is_active():
             old.set_canceled(None, PREEMPTED_TEXT)
@@ -219,9 +217,7 @@ class SimpleActionServer:
             if isinstance(error, ROSInterruptException) and self.node.is_shutdown():
                 return
             self._abort(handle, f"Exception in execute callback: {error}")
-            self.node.callback_failed(
-                error, self.execute_callback, f"a goal of {self.action_server.ns}", goal
-            )
+            self.node.callback_failed(error, self.execute_callback, f"a goal of {self.action_server.ns}", goal)
             return
         if self.is_active() and self.current_goal is handle:
             self.node.logwarn(

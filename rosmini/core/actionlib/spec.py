@@ -17,15 +17,7 @@ if TYPE_CHECKING:
 
     from rosmini.core.graph import Node, Waiter
 
-__all__ = [
-    "ActionTypes",
-    "GoalIDGenerator",
-    "StatusTracker",
-    "Timeout",
-    "numbers_of",
-    "seconds_of",
-    "wait_on",
-]
+__all__ = ["ActionTypes", "GoalIDGenerator", "StatusTracker", "Timeout", "numbers_of", "seconds_of", "wait_on"]
 
 
 class ActionTypes(NamedTuple):
@@ -45,17 +37,12 @@ class ActionTypes(NamedTuple):
             action = spec()
             parts = [type(getattr(action, f"action_{part}")) for part in ("goal", "result", "feedback")]
             inner = [
-                type(getattr(part(), name))
-                for part, name in zip(parts, ("goal", "result", "feedback"), strict=True)
+                type(getattr(part(), name)) for part, name in zip(parts, ("goal", "result", "feedback"), strict=True)
             ]
         except (AttributeError, TypeError) as error:
             name = getattr(spec, "__name__", repr(spec))
             ends = [end for end in ("Goal", "Result", "Feedback") if name.endswith(end)]
-            hint = (
-                f"give {name.removesuffix(ends[0]).removesuffix('Action')}Action"
-                if ends
-                else how_to_import(spec)
-            )
+            hint = f"give {name.removesuffix(ends[0]).removesuffix('Action')}Action" if ends else how_to_import(spec)
             told = f": {hint}" if hint else ""
             raise ActionException(f"{name} is not an action type, such as FibonacciAction{told}") from error
         return cls(*parts, *inner)
@@ -98,12 +85,7 @@ class StatusTracker:
     """
 
     def __init__(
-        self,
-        id_generator: GoalIDGenerator,
-        now: Time,
-        goal_id: Any = None,
-        status: int | None = None,
-        goal: Any = None,
+        self, id_generator: GoalIDGenerator, now: Time, goal_id: Any = None, status: int | None = None, goal: Any = None
     ) -> None:
         self.id_generator = id_generator
         self.goal: Any = None

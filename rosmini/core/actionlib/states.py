@@ -54,14 +54,7 @@ class Status(_Named):
 
 
 _TERMINAL = frozenset(
-    {
-        Status.PREEMPTED,
-        Status.SUCCEEDED,
-        Status.ABORTED,
-        Status.REJECTED,
-        Status.RECALLED,
-        Status.LOST,
-    }
+    {Status.PREEMPTED, Status.SUCCEEDED, Status.ABORTED, Status.REJECTED, Status.RECALLED, Status.LOST}
 )
 
 

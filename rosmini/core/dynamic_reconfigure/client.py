@@ -53,13 +53,9 @@ class Client:
         self._description_callback = description_callback
         service = f"{name}/set_parameters"
         self._wait_for_service(service, timeout or None)
-        self._set_service = node.service_client(
-            service, service_class("dynamic_reconfigure/Reconfigure"), numpy=False
-        )
+        self._set_service = node.service_client(service, service_class("dynamic_reconfigure/Reconfigure"), numpy=False)
         self._subscribers = [
-            node.subscriber(
-                f"{name}/{topic}", message_class(f"dynamic_reconfigure/{kind}"), heard, numpy=False
-            )
+            node.subscriber(f"{name}/{topic}", message_class(f"dynamic_reconfigure/{kind}"), heard, numpy=False)
             for topic, kind, heard in (
                 ("parameter_descriptions", "ConfigDescription", self._described),
                 ("parameter_updates", "Config", self._updated),
@@ -165,17 +161,13 @@ class Client:
             raise DynamicReconfigureCallbackException(
                 f"{self.name} has not described its parameters, and the node is shutting down"
             )
-        values = {
-            name: _converted(description[name], value) for name, value in changes.items() if name != "groups"
-        }
+        values = {name: _converted(description[name], value) for name, value in changes.items() if name != "groups"}
         states = {name: bool(state) for name, state in changes.get("groups", {}).items()}
         request = encode_values(description, values, states)
         try:
             answer = self._set_service(request)
         except ServiceException as error:
-            raise DynamicReconfigureCallbackException(
-                f"{self.name} did not change its parameters: {error}"
-            ) from error
+            raise DynamicReconfigureCallbackException(f"{self.name} did not change its parameters: {error}") from error
         return self._decoded(answer.config, description)
 
     def close(self) -> None:

@@ -58,9 +58,7 @@ def cast_value(name: str, kind: str, value: Any) -> Any:
             f"parameter {name} has the type {kind} and cannot be set to the {type(value).__name__} {value!r}"
         )
     if isinstance(value, int) and not -(2**31) <= value < 2**31:
-        raise DynamicReconfigureParameterException(
-            f"parameter {name}: {value} does not fit into the 32 bits of an int"
-        )
+        raise DynamicReconfigureParameterException(f"parameter {name}: {value} does not fit into the 32 bits of an int")
     return value
 
 
@@ -146,10 +144,7 @@ class Description:
         try:
             return self._by_name[name]
         except KeyError:
-            hint = (
-                nearest(name, self._by_name)
-                or f"the parameters are {', '.join(self._by_name) or 'none at all'}"
-            )
+            hint = nearest(name, self._by_name) or f"the parameters are {', '.join(self._by_name) or 'none at all'}"
             raise DynamicReconfigureParameterException(f"there is no parameter {name!r}; {hint}") from None
 
     def group(self, name: str) -> ParameterGroup:
@@ -252,9 +247,7 @@ def filled_parameter(
         raise DynamicReconfigureParameterException(f"parameter {name} has the type {type!r}; {hint}")
     given = zip((default, min, max), _RANGES[type], strict=True)
     values = [otherwise if value is None else cast_value(name, type, value) for value, otherwise in given]
-    return ReconfigurableParameter(
-        name, type, level, description, values[0], values[1], values[2], edit_method
-    )
+    return ReconfigurableParameter(name, type, level, description, values[0], values[1], values[2], edit_method)
 
 
 def _parameter(*args: Any, **named: Any) -> ReconfigurableParameter:
@@ -275,9 +268,7 @@ def _with_module_values(group: ParameterGroup, module: Any) -> ParameterGroup:
 
     def changed(one: ReconfigurableParameter) -> ReconfigurableParameter:
         values = {
-            field: cast_value(one.name, one.type, table[one.name])
-            for field, table in tables
-            if one.name in table
+            field: cast_value(one.name, one.type, table[one.name]) for field, table in tables if one.name in table
         }
         return replace(one, **values)
 
@@ -294,8 +285,7 @@ _KIND_OF = {python: kind for kind, python in KINDS.items()}
 def _enumeration(choices: tuple[str, ...], meaning: str) -> str:
     """Return the ``edit_method`` of a text with these ``choices``, as generated from ``.cfg`` files."""
     constants = [
-        {"name": each, "type": "str", "value": each, "description": "", "ctype": "std::string"}
-        for each in choices
+        {"name": each, "type": "str", "value": each, "description": "", "ctype": "std::string"} for each in choices
     ]
     return repr({"enum": constants, "enum_description": meaning})
 
@@ -313,9 +303,7 @@ def _group_of_fields(source: type[Parameters]) -> ParameterGroup:
                 f"{source.__name__}.{declared.name} may be {python}; a reconfigurable parameter is one of "
                 f"{', '.join(one.__name__ for one in _KIND_OF)}, and cannot be None"
             )
-        bounds = [
-            None if about[bound] is None else KINDS[kind](about[bound]) for bound in ("minimum", "maximum")
-        ]
+        bounds = [None if about[bound] is None else KINDS[kind](about[bound]) for bound in ("minimum", "maximum")]
         unit = f" [{about['unit']}]" if about["unit"] else ""
         made = _parameter(
             declared.name,
@@ -330,7 +318,6 @@ def _group_of_fields(source: type[Parameters]) -> ParameterGroup:
         members.setdefault(about["group"], []).append(made)
     names: Iterable[str] = (name for name in members if name)
     inner = tuple(
-        ParameterGroup(name, id=number, parameters=tuple(members[name]))
-        for number, name in enumerate(names, 1)
+        ParameterGroup(name, id=number, parameters=tuple(members[name])) for number, name in enumerate(names, 1)
     )
     return ParameterGroup("Default", parameters=tuple(members.get("", ())), groups=inner)

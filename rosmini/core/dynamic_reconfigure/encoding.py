@@ -6,23 +6,13 @@ from typing import TYPE_CHECKING, Any, cast
 
 from rosmini.msgs import message_class
 
-from .description import (
-    Description,
-    DynamicReconfigureParameterException,
-    ParameterGroup,
-    ReconfigurableParameter,
-)
+from .description import Description, DynamicReconfigureParameterException, ParameterGroup, ReconfigurableParameter
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
 _LISTS = {"bool": "bools", "int": "ints", "str": "strs", "double": "doubles"}
-_CLASSES = {
-    "bool": "BoolParameter",
-    "int": "IntParameter",
-    "str": "StrParameter",
-    "double": "DoubleParameter",
-}
+_CLASSES = {"bool": "BoolParameter", "int": "IntParameter", "str": "StrParameter", "double": "DoubleParameter"}
 
 
 class Config(dict[str, Any]):
@@ -46,9 +36,7 @@ def _message(name: str, *values: Any) -> Any:
     return message_class(f"dynamic_reconfigure/{name}")(*values)
 
 
-def group_tree(
-    group: ParameterGroup, states: Mapping[str, bool], values: Mapping[str, Any] | None = None
-) -> Config:
+def group_tree(group: ParameterGroup, states: Mapping[str, bool], values: Mapping[str, Any] | None = None) -> Config:
     """Return the item ``groups`` of a configuration: the states of groups, their parameters, and their subgroups.
 
     Each value appears in ``parameters`` and beside it, because ROS's server uses one form and its client the other.
@@ -74,9 +62,7 @@ def group_states(tree: Mapping[str, Any]) -> dict[str, bool]:
     return found
 
 
-def encode_values(
-    description: Description, values: Mapping[str, Any], states: Mapping[str, bool] | None = None
-) -> Any:
+def encode_values(description: Description, values: Mapping[str, Any], states: Mapping[str, bool] | None = None) -> Any:
     """Return a ``Config`` message with the given parameters and states of groups."""
     message = _message("Config")
     for name, value in values.items():
@@ -104,8 +90,7 @@ def encode_description(description: Description) -> Any:
         ]
         message.groups.append(_message("Group", group.name, group.type, parameters, group.parent, group.id))
     message.max, message.min, message.dflt = (
-        encode_values(description, values)
-        for values in (description.max, description.min, description.defaults)
+        encode_values(description, values) for values in (description.max, description.min, description.defaults)
     )
     return message
 
@@ -126,15 +111,11 @@ def decode_description(message: Any) -> Description:
 
     def build(group: Any) -> ParameterGroup:
         inner = tuple(build(one) for one in message.groups if one.id != 0 and one.parent == group.id)
-        return ParameterGroup(
-            group.name, group.type, True, group.id, group.parent, tuple(parameters(group)), inner
-        )
+        return ParameterGroup(group.name, group.type, True, group.id, group.parent, tuple(parameters(group)), inner)
 
     roots = [group for group in message.groups if group.id == 0]
     if not roots:
-        raise DynamicReconfigureParameterException(
-            "the server's description has no group 0, which contains all others"
-        )
+        raise DynamicReconfigureParameterException("the server's description has no group 0, which contains all others")
     try:
         return Description(build(roots[0]))
     except KeyError as error:

@@ -44,9 +44,7 @@ class Server:
     Parameter Server, ``DynamicReconfigureCallbackException`` if the callback returns nothing.
     """
 
-    def __init__(
-        self, node: Node, type: Any, callback: Callable[[Config, int], Any], namespace: str = ""
-    ) -> None:
+    def __init__(self, node: Node, type: Any, callback: Callable[[Config, int], Any], namespace: str = "") -> None:
         self.node = node
         self.ns = _prefix(namespace)
         self.type = type
@@ -57,9 +55,7 @@ class Server:
         values = self._values_at_start()
         self.config = self._config(values, {})
         self.descr_topic = node.publisher(
-            self.ns + "parameter_descriptions",
-            message_class("dynamic_reconfigure/ConfigDescription"),
-            latch=True,
+            self.ns + "parameter_descriptions", message_class("dynamic_reconfigure/ConfigDescription"), latch=True
         )
         self.descr_topic.publish(encode_description(self.description))
         self.update_topic = node.publisher(
@@ -68,10 +64,7 @@ class Server:
         with self._alone():
             self._change(values, {}, _ALL_LEVELS)
         self.set_service = node.service(
-            self.ns + "set_parameters",
-            service_class("dynamic_reconfigure/Reconfigure"),
-            self._set,
-            numpy=False,
+            self.ns + "set_parameters", service_class("dynamic_reconfigure/Reconfigure"), self._set, numpy=False
         )
 
     def update_configuration(self, changes: Mapping[str, Any]) -> Config:

@@ -144,9 +144,7 @@ def weight(value: Any) -> int:
                 kinds = set(map(type, items))
                 if not kinds <= _ATOMS:
                     waiting += items
-                elif int in kinds and not (
-                    kinds <= _NUMBERS and min(items) > -_SMALL and max(items) < _SMALL
-                ):
+                elif int in kinds and not (kinds <= _NUMBERS and min(items) > -_SMALL and max(items) < _SMALL):
                     total += sum(map(_digits, items))
         else:
             total += _digits(part)

@@ -206,9 +206,7 @@ def _named(functions: Mapping[str, Callable[..., Any]], *, counts: bool = False)
 
 FUNCTIONS: Mapping[str, Function] = MappingProxyType(
     {
-        **_named(
-            {each.__name__: each for each in (abs, all, any, bool, divmod, float, int, len, max, min, ord)}
-        ),
+        **_named({each.__name__: each for each in (abs, all, any, bool, divmod, float, int, len, max, min, ord)}),
         **_named({"range": _range, "round": _round, "sum": _sum}),
         **_named({each.__name__: _collector(each) for each in (list, sorted, tuple)}, counts=True),
         **_named({"dict": _dict, "filter": _filter, "map": _map}, counts=True),
@@ -249,12 +247,7 @@ _OF_TEXTS = (
 _SEARCHING = "lstrip rfind rindex rpartition rsplit rstrip strip"
 """Methods that may compare each character of a text with each character of their argument."""
 _COUNTING = _named(
-    {
-        "join": _join,
-        "replace": _replace,
-        "zfill": _zfill,
-        **{name: _searching(name) for name in _SEARCHING.split()},
-    },
+    {"join": _join, "replace": _replace, "zfill": _zfill, **{name: _searching(name) for name in _SEARCHING.split()}},
     counts=True,
 )
 METHODS: Mapping[type, Collection[str]] = MappingProxyType(
@@ -272,7 +265,5 @@ def method(kind: type, name: str, methods: Mapping[type, Collection[str]]) -> Fu
     """Return a method of a type if it may be called, or None."""
     for base in kind.__mro__:
         if name in methods.get(base, ()):
-            return (
-                _COUNTING[name] if base is str and name in _COUNTING else Function(name, getattr(base, name))
-            )
+            return _COUNTING[name] if base is str and name in _COUNTING else Function(name, getattr(base, name))
     return None

@@ -61,9 +61,7 @@ def distances_to_sides(points: Floats, sides: Floats) -> Floats:
     return lengths
 
 
-def simplified_indices(
-    fixed: Sequence[int], gaps: Callable[[int, int], Floats], tolerance: float
-) -> list[int]:
+def simplified_indices(fixed: Sequence[int], gaps: Callable[[int, int], Floats], tolerance: float) -> list[int]:
     """Return the indices of the points needed to draw a line within `tolerance` of the others, including `fixed`.
 
     `gaps(first, last)` returns the distances between the points between two indices and the line drawn without them
@@ -133,9 +131,7 @@ def _turn(a: Sequence[float], b: Sequence[float], c: Sequence[float]) -> float:
 
 
 def _is_convex(ring: list[int], corners: Sequence[Sequence[float]]) -> bool:
-    return all(
-        _turn(corners[ring[k - 2]], corners[ring[k - 1]], corners[ring[k]]) >= 0 for k in range(len(ring))
-    )
+    return all(_turn(corners[ring[k - 2]], corners[ring[k - 1]], corners[ring[k]]) >= 0 for k in range(len(ring)))
 
 
 def _is_ear(k: int, ring: list[int], corners: Sequence[Sequence[float]]) -> bool:

@@ -86,9 +86,9 @@ def arc(pose: Pose | Floats, v: float | Floats, w: float | Floats, dt: float | F
     `w dt / 2` (Thrun, Burgard and Fox, Probabilistic Robotics, 2005, section 5.3, describes the same arc by its centre,
     which does not exist for a straight line).
     """
-    if not (
-        isinstance(v, np.ndarray) or isinstance(w, np.ndarray) or isinstance(dt, np.ndarray)
-    ) and isinstance(pose, tuple):
+    if not (isinstance(v, np.ndarray) or isinstance(w, np.ndarray) or isinstance(dt, np.ndarray)) and isinstance(
+        pose, tuple
+    ):
         x, y, theta = pose
         half = w * dt / 2
         chord = v * dt * (math.sin(half) / half if half else 1.0)
@@ -97,11 +97,7 @@ def arc(pose: Pose | Floats, v: float | Floats, w: float | Floats, dt: float | F
     halves = np.asarray(w * dt / 2, dtype=np.float64)
     chords = v * dt * np.sinc(halves / np.pi)
     towards = starts[..., 2] + halves
-    ends = (
-        starts[..., 0] + chords * np.cos(towards),
-        starts[..., 1] + chords * np.sin(towards),
-        towards + halves,
-    )
+    ends = (starts[..., 0] + chords * np.cos(towards), starts[..., 1] + chords * np.sin(towards), towards + halves)
     return np.stack(np.broadcast_arrays(*ends), axis=-1)
 
 

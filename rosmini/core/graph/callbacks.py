@@ -41,9 +41,7 @@ def describe_failure(
 ) -> CallbackError:
     """Return a ``CallbackError`` caused by ``error``: callback, user's line, topic or service, and message."""
     name = getattr(callback, "__qualname__", None) or type(callback).__name__
-    lines = [
-        f"{name.rpartition('<locals>.')[2]} of {node}, called for {where}, raised {type(error).__name__}: {error}"
-    ]
+    lines = [f"{name.rpartition('<locals>.')[2]} of {node}, called for {where}, raised {type(error).__name__}: {error}"]
     place = _users_line(error)
     if place is not None:
         lines.append(place)

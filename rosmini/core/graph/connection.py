@@ -319,9 +319,7 @@ class Connection:
     def _request_topic(self) -> Triple:
         """Ask the publisher how to connect; code -1 means that it does not publish the topic."""
         node, transport = self.subscription.node, self.subscription.node.graph.transport
-        return transport.call(
-            self.uri, "requestTopic", node.name, self.subscription.topic, transport.offers(node.uri)
-        )
+        return transport.call(self.uri, "requestTopic", node.name, self.subscription.topic, transport.offers(node.uri))
 
     def _has_left(self) -> bool:
         """Return True if the publisher left between its two answers, which is not worth reporting."""

@@ -178,9 +178,7 @@ class EventQueue:
         self.ready: deque[Callable[[], object]] = deque()
         self._now = SIMULATED_START_NS
         self._wall_start = time.time_ns()
-        self._mono_start = (
-            time.perf_counter_ns()
-        )  # on Windows monotonic() steps by 15.6 ms before Python 3.13
+        self._mono_start = time.perf_counter_ns()  # on Windows monotonic() steps by 15.6 ms before Python 3.13
         self._timed = TimedEvents()
         self._last: list[Callable[[], object]] = []
         self._rounds = 0
@@ -248,9 +246,7 @@ class EventQueue:
     def is_idle(self) -> bool:
         """Return True if no event is due now."""
         due = self._timed.next_ns()
-        return (
-            not self.ready and not self._last and self._inbox.empty() and (due is None or due > self.now_ns())
-        )
+        return not self.ready and not self._last and self._inbox.empty() and (due is None or due > self.now_ns())
 
     def pending(self) -> int:
         """Return the number of events that are due now or later."""

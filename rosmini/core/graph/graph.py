@@ -178,9 +178,7 @@ class Graph:
         If the graph is strict, exceptions of callbacks are raised here. Ctrl-C stops the run and leaves the graph
         consistent. Raises ``RosminiError`` if the duration is not a finite number of at least zero.
         """
-        until_ns = (
-            None if duration is None else self.scheduler.now_ns() + span_ns(duration, "a run's duration")
-        )
+        until_ns = None if duration is None else self.scheduler.now_ns() + span_ns(duration, "a run's duration")
         return self.scheduler.run(until_ns, until)
 
     @property
@@ -431,9 +429,7 @@ class Graph:
         self._recordings += 1
         if self.scheduler.history is None:
             self._set_history(History(self.scheduler, self.nodes))
-        return Recording(
-            self.scheduler.history, lambda: self.scheduler.run_in_scheduler(self._record_no_more)
-        )
+        return Recording(self.scheduler.history, lambda: self.scheduler.run_in_scheduler(self._record_no_more))
 
     @property
     def recorded(self) -> Recording | None:

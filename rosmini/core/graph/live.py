@@ -99,9 +99,7 @@ class LoopDrive(ABC):
         scheduler = self.graph.scheduler
         if not scheduler.simulated:
             until_ns, until = scheduler.now_ns() + int(BUDGET_S * scheduler.rate * 1e9), scheduler.is_idle
-        return scheduler.run(
-            until_ns, lambda: time.perf_counter() > deadline or (until is not None and until())
-        ).reason
+        return scheduler.run(until_ns, lambda: time.perf_counter() > deadline or (until is not None and until())).reason
 
     # Between cells ipykernel ignores interrupts, so they are meant for the live graph.
 

@@ -61,9 +61,7 @@ class LogFile:
 
     def _open(self) -> None:
         self.path.parent.mkdir(parents=True, exist_ok=True)
-        self._file = self.path.open(
-            self._mode, encoding="utf-8", errors="backslashreplace", newline="\n", buffering=1
-        )
+        self._file = self.path.open(self._mode, encoding="utf-8", errors="backslashreplace", newline="\n", buffering=1)
 
     def write(self, logger: str, level: int, now_ns: int, text: str) -> None:
         """Write one message."""

@@ -119,9 +119,7 @@ def _api(
     def failed(code: int, status: str) -> Triple:
         return [code, status, wire_copy(on_error)]
 
-    def decorate(
-        method: Callable[Concatenate[Master, P], Triple],
-    ) -> Callable[Concatenate[Master, P], Triple]:
+    def decorate(method: Callable[Concatenate[Master, P], Triple]) -> Callable[Concatenate[Master, P], Triple]:
         call: Callable[..., Triple] = method
 
         @functools.wraps(method)
@@ -188,10 +186,7 @@ class _Registry:
         return True
 
     def forget(self, caller_id: str) -> None:
-        kept = {
-            key: [entry for entry in entries if entry[0] != caller_id]
-            for key, entries in self.entries.items()
-        }
+        kept = {key: [entry for entry in entries if entry[0] != caller_id] for key, entries in self.entries.items()}
         self.entries = {key: entries for key, entries in kept.items() if entries}
 
 
@@ -240,9 +235,7 @@ class Master(MasterPort):
             for node in self._nodes.values():
                 node.api = addresses.get(node.api, node.api)
             for registry in (self._publishers, self._subscribers, self._services, self._param_subscribers):
-                registry.entries = {
-                    key: [now(each) for each in entries] for key, entries in registry.entries.items()
-                }
+                registry.entries = {key: [now(each) for each in entries] for key, entries in registry.entries.items()}
             if self._service_apis is not None:
                 self._service_apis = {key: now(entry) for key, entry in self._service_apis.items()}
 
@@ -346,11 +339,7 @@ class Master(MasterPort):
     def getPublishedTopics(self, caller_id: str, subgraph: str) -> Triple:
         """Return ``[topic, type]`` for each published topic in the namespace ``subgraph`` (``""``: in all)."""
         within = subgraph if subgraph.endswith("/") or not subgraph else subgraph + "/"
-        topics = [
-            [topic, self._topic_types[topic]]
-            for topic in self._publishers.entries
-            if topic.startswith(within)
-        ]
+        topics = [[topic, self._topic_types[topic]] for topic in self._publishers.entries if topic.startswith(within)]
         return [1, "current topics", topics]
 
     @_api([])
@@ -431,9 +420,7 @@ class Master(MasterPort):
             self._nodes[caller_id] = _Registered(caller_api)
             if known is not None:
                 self._forget(caller_id)
-                self._notifier.shutdown(
-                    known.api, f"[{caller_id}] Reason: new node registered with same name"
-                )
+                self._notifier.shutdown(known.api, f"[{caller_id}] Reason: new node registered with same name")
         self._nodes[caller_id].holds.add((registry.name, key))
         registry.add(key, (caller_id, caller_api))
         self._notifier.registrations_changed()
@@ -457,9 +444,7 @@ class Master(MasterPort):
         for registry in (self._publishers, self._subscribers, self._services, self._param_subscribers):
             registry.forget(caller_id)
         if self._service_apis:
-            self._service_apis = {
-                key: entry for key, entry in self._service_apis.items() if entry[0] != caller_id
-            }
+            self._service_apis = {key: entry for key, entry in self._service_apis.items() if entry[0] != caller_id}
 
     def _tell_subscribers(self, topic: str) -> None:
         publishers = self._publishers.apis(topic)

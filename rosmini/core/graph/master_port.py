@@ -93,9 +93,7 @@ class MasterProxy:
     node or the tool. ``stop_reason`` returns the reason not to retry a registration, or None.
     """
 
-    def __init__(
-        self, graph: Graph, caller_id: str, stop_reason: Callable[[], str | None] = lambda: None
-    ) -> None:
+    def __init__(self, graph: Graph, caller_id: str, stop_reason: Callable[[], str | None] = lambda: None) -> None:
         self._graph = graph
         self._caller_id = caller_id
         self._stop_reason = stop_reason
@@ -214,9 +212,7 @@ class MasterProxy:
                     port.leave_by = port.leave_by or started + LEAVE_NS
                     if not port.keeps_trying or scheduler.now_ns() + RETRY_NS >= port.leave_by:
                         port.leave_by = started
-                        warn(
-                            f"{error} ({method}). The registration stays there; `rosnode cleanup` removes it."
-                        )
+                        warn(f"{error} ({method}). The registration stays there; `rosnode cleanup` removes it.")
                         return
                     self._pause()
                 else:

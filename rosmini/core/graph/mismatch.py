@@ -43,9 +43,7 @@ def describe_mismatch(topic: str, publisher: Header, subscriber: Header) -> str:
         )
     definitions = [end.get("message_definition") for end in (publisher, subscriber)]
     if definitions[0] is not None and definitions[1] is not None:
-        changes = [
-            line for line in ndiff(_fields(definitions[0]), _fields(definitions[1])) if line[0] in "+-"
-        ]
+        changes = [line for line in ndiff(_fields(definitions[0]), _fields(definitions[1])) if line[0] in "+-"]
         ends = "- publisher, + subscriber" if same else f"- only in {mine}, + only in {theirs}"
         lines.append(f"  Fields ({ends}):")
         lines += [f"    {change}" for change in changes[:12]]

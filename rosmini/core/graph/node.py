@@ -184,13 +184,7 @@ class Node:
         )
 
     def _publisher(
-        self,
-        topic: str,
-        cls: Any,
-        queue_size: int | None,
-        latch: bool,
-        headers: Header | None,
-        *callbacks: Any,
+        self, topic: str, cls: Any, queue_size: int | None, latch: bool, headers: Header | None, *callbacks: Any
     ) -> Publisher:
         self.require_running(f"publish {topic}")
         publication = self.publications.get(topic)
@@ -362,12 +356,7 @@ class Node:
         ``headers`` are additional fields of the connection header.
         """
         return ServiceClient(
-            self,
-            self.resolve(name),
-            service_class,
-            persistent=persistent,
-            numpy=numpy,
-            headers=headers,
+            self, self.resolve(name), service_class, persistent=persistent, numpy=numpy, headers=headers
         )
 
     def wait_for_service(self, name: str, timeout: float | None = None) -> None:
@@ -376,9 +365,7 @@ class Node:
 
     # -- parameters ----------------------------------------------------------------------------------------------
 
-    def get_param(
-        self, name: str, default: Any = UNSET, *, expect: type | tuple[type, ...] | None = None
-    ) -> Any:
+    def get_param(self, name: str, default: Any = UNSET, *, expect: type | tuple[type, ...] | None = None) -> Any:
         """Return a parameter's value, or ``default`` if it is not set.
 
         With ``expect`` a value of another type is an error (an int is accepted for a float). Raises
@@ -502,13 +489,7 @@ class Node:
         """
         return self.scheduler.waiter(reason, remote=remote)
 
-    def wait(
-        self,
-        waiter: Waiter,
-        timeout: float | None = None,
-        *,
-        timeout_ns: int | None = None,
-    ) -> bool:
+    def wait(self, waiter: Waiter, timeout: float | None = None, *, timeout_ns: int | None = None) -> bool:
         """Block until ``waiter`` is woken (True) or ``timeout`` seconds have passed (False).
 
         Raises ``ROSInterruptException`` if the node shuts down meanwhile.
@@ -619,13 +600,7 @@ class Node:
             self.callback_failed(error, callback, what, None)
 
     def callback_failed(
-        self,
-        error: Exception,
-        callback: Callable[..., object],
-        where: str,
-        message: Any,
-        *,
-        service: bool = False,
+        self, error: Exception, callback: Callable[..., object], where: str, message: Any, *, service: bool = False
     ) -> None:
         """Report an exception of a callback, with the line of the user's code, ``where`` and the message."""
         if self._is_by_shutdown(error):
@@ -659,9 +634,7 @@ class Node:
     ) -> Timer:
         """Call ``callback(event)`` every ``period`` seconds."""
         span = period if isinstance(period, Duration) else Duration.from_sec(period)
-        return self.scheduler.run_in_scheduler(
-            lambda: Timer(self, span, callback, oneshot=oneshot, reset=reset)
-        )
+        return self.scheduler.run_in_scheduler(lambda: Timer(self, span, callback, oneshot=oneshot, reset=reset))
 
     # -- shutdown ------------------------------------------------------------------------------------------------
 
@@ -756,9 +729,7 @@ class Node:
         return self._shutdown_message() if self._stopped else None
 
     def _shutdown_message(self) -> str:
-        return f"node {self.name} was shut down" + (
-            f": {self.shutdown_reason}" if self.shutdown_reason else ""
-        )
+        return f"node {self.name} was shut down" + (f": {self.shutdown_reason}" if self.shutdown_reason else "")
 
     def require_running(self, what: str) -> None:
         """Raise ``ROSException`` if the node has been shut down and can no longer do ``what``."""

@@ -40,9 +40,7 @@ def check_value(name: str, value: Any) -> Any:
         return value
     if isinstance(value, str):
         return str.__str__(value)  # a member of an enumeration becomes its value
-    if type(value).__name__ == "Binary" and hasattr(
-        value, "data"
-    ):  # xmlrpc.client's, which rospy's scripts use
+    if type(value).__name__ == "Binary" and hasattr(value, "data"):  # xmlrpc.client's, which rospy's scripts use
         value = value.data
     if isinstance(value, bytes):
         return bytes(value)
@@ -62,8 +60,7 @@ def check_value(name: str, value: Any) -> Any:
         for key in value:
             if not isinstance(key, str):
                 msg = (
-                    f"parameter {name}: the key {key!r} is a {type(key).__name__}; "
-                    "keys of a parameter tree are strings"
+                    f"parameter {name}: the key {key!r} is a {type(key).__name__}; keys of a parameter tree are strings"
                 )
                 raise ParameterTypeError(msg)
         return {key: check_value(f"{name.rstrip('/')}/{key}", item) for key, item in value.items()}
@@ -184,9 +181,7 @@ class ParameterClient:
         callbacks = self._callbacks.setdefault(key, [])
         callbacks.append(callback)
         try:
-            value = self._node.master.register(
-                "subscribeParam", self._node.uri, resolved, warn=self._node.logerr
-            )
+            value = self._node.master.register("subscribeParam", self._node.uri, resolved, warn=self._node.logerr)
         except ROSException:
             callbacks.remove(callback)
             raise
@@ -239,9 +234,7 @@ class ParameterClient:
                 continue
             now = self._value_now(name)
             callbacks = self._callbacks.get(name, [])
-            if repr(self._reported_values.get(name, UNSET)) == repr(
-                now
-            ):  # 1, 1.0 and True are equal, but not the same
+            if repr(self._reported_values.get(name, UNSET)) == repr(now):  # 1, 1.0 and True are equal, but not the same
                 continue
             self._reported_values[name] = now
             for callback in callbacks:

@@ -45,9 +45,7 @@ class MessageFactory:
 
     __slots__ = ("is_frozen", "keeps_number", "make")
 
-    def __init__(
-        self, make: Callable[[], Any], *, is_frozen: bool = False, keeps_number: bool = False
-    ) -> None:
+    def __init__(self, make: Callable[[], Any], *, is_frozen: bool = False, keeps_number: bool = False) -> None:
         self.make = make
         self.is_frozen = is_frozen
         self.keeps_number = keeps_number
@@ -144,9 +142,7 @@ class Publication:
         senders = self.senders.values()
         self._local = tuple(sender for sender in senders if isinstance(sender, QueuedSender))
         self._wires = tuple(sender for sender in senders if not isinstance(sender, QueuedSender))
-        is_simple = (
-            len(self._local) == len(senders) == 1 and not self._latch and self._scheduler.history is None
-        )
+        is_simple = len(self._local) == len(senders) == 1 and not self._latch and self._scheduler.history is None
         self._only = self._local[0] if is_simple else None
         self._header = None if self._only is None else self._only.header
 
@@ -232,11 +228,7 @@ class Publication:
         }
         mine = dict(sorted(fields.items()))
         if wanted not in ("*", cls._md5sum):
-            theirs = {
-                **header,
-                "callerid": header.get("callerid", "unknown"),
-                "type": header.get("type", "*"),
-            }
+            theirs = {**header, "callerid": header.get("callerid", "unknown"), "type": header.get("type", "*")}
             problem = TypeMismatch(describe_mismatch(self.topic, mine, theirs))
             self.node.graph.report(problem, self.node, raise_strict=False)
             msg = (

@@ -152,9 +152,7 @@ class Logger:
         """Return True if a message of this level is logged."""
         return level >= self.tree.level(logger)
 
-    def log(
-        self, level: int, text: str, *, logger: str | None = None, depth: int = 2, is_shown: bool = True
-    ) -> None:
+    def log(self, level: int, text: str, *, logger: str | None = None, depth: int = 2, is_shown: bool = True) -> None:
         """Log ``text``; ``depth`` is the number of frames from this call up to the user's code.
 
         Without ``is_shown`` the text goes to ``/rosout`` and to the log file, but not to the console.
@@ -170,9 +168,7 @@ class Logger:
         now = node.now()
         shown = _shown(now)
         if isinstance(node.clock, TopicClock):
-            shown = (
-                f"{_shown(node.graph.now())}, {shown}"  # as in rospy: the wall time, then the time of /clock
-            )
+            shown = f"{_shown(node.graph.now())}, {shown}"  # as in rospy: the wall time, then the time of /clock
         if is_shown:
             self.console(level, f"[{NAMES[level]}] [{shown}]: {text}")
         publication = node.publications.get("/rosout")
@@ -220,9 +216,7 @@ class Logger:
     def close_file(self) -> None:
         """Write the last line of the log file and close it. Harmless when repeated."""
         if self._file is not None:
-            self.log(
-                LEVELS["INFO"], f"signal_shutdown [{self._node.shutdown_reason or ''}]", logger="rospy.core"
-            )
+            self.log(LEVELS["INFO"], f"signal_shutdown [{self._node.shutdown_reason or ''}]", logger="rospy.core")
             self._file.close()
             self._file = None
 
@@ -272,10 +266,7 @@ def function_of(frame: FrameType) -> str:
     """Return rospy's name of the function of a frame: ``Class.method`` if there is a ``self``."""
     code = frame.f_code
     # Before Python 3.13 a frame whose locals were read keeps references to them until it ends.
-    if (
-        "self" not in (*code.co_varnames, *code.co_cellvars, *code.co_freevars)
-        or "self" not in frame.f_locals
-    ):
+    if "self" not in (*code.co_varnames, *code.co_cellvars, *code.co_freevars) or "self" not in frame.f_locals:
         return code.co_name
     return f"{type(frame.f_locals['self']).__name__}.{code.co_name}"
 

@@ -221,12 +221,7 @@ class Scheduler(EventQueue):
         with self._owner_lock:
             if not self._lives(self.thread):
                 self._abandon()
-            elif (
-                self.driven
-                or self._parked
-                or get_ident() in self._thread_lanes
-                or (to_wait and self.simulated)
-            ):
+            elif self.driven or self._parked or get_ident() in self._thread_lanes or (to_wait and self.simulated):
                 return False
             self._bind_to_thread(get_ident())
         return True
@@ -415,9 +410,7 @@ class Scheduler(EventQueue):
     def waiting(self) -> tuple[Waiting, ...]:
         """Return the parked lanes, without the driver, and the reason why each waits."""
         return tuple(
-            Waiting(lane.name, waiter.reason)
-            for waiter, lane in self._parked.items()
-            if lane is not self.root
+            Waiting(lane.name, waiter.reason) for waiter, lane in self._parked.items() if lane is not self.root
         )
 
     def close(self) -> None:
@@ -460,9 +453,7 @@ class Scheduler(EventQueue):
         """Run events until parked code must continue; return that code."""
         ready, heap, simulated = self.ready, self._timed.heap, self.simulated
         nothing_came, interrupts = self._inbox.empty, self._interrupts
-        if (
-            not self._left and (self._rounds + 1) % ROUNDS_PER_POLL
-        ):  # skip the inbox and the timers in most rounds
+        if not self._left and (self._rounds + 1) % ROUNDS_PER_POLL:  # skip the inbox and the timers in most rounds
             self._rounds += 1
             self._left = len(ready)
         while True:

@@ -60,9 +60,7 @@ class Services(dict[str, "ServiceServer"]):
             server = self[resolved] = ServiceServer(self._node, resolved, service_class, handler, numpy=numpy)
             uri = self._node.graph.transport.service_uri(self._node.uri)
             try:
-                self._node.master.register(
-                    "registerService", resolved, uri, self._node.uri, warn=self._node.logerr
-                )
+                self._node.master.register("registerService", resolved, uri, self._node.uri, warn=self._node.logerr)
             except ROSException:
                 del self[resolved]
                 raise
@@ -123,13 +121,7 @@ class ServiceServer:
     """
 
     def __init__(
-        self,
-        node: Node,
-        name: str,
-        service_class: Any,
-        handler: Callable[[Any], Any],
-        *,
-        numpy: bool = True,
+        self, node: Node, name: str, service_class: Any, handler: Callable[[Any], Any], *, numpy: bool = True
     ) -> None:
         self.node = node
         self.name = name
@@ -349,9 +341,7 @@ class ServiceClient:
         try:
             frozen = type(given)._freeze(given)
             if history is not None:
-                request = history.requested(
-                    self.node.name, link.header.get("callerid", ""), self.name, frozen
-                )
+                request = history.requested(self.node.name, link.header.get("callerid", ""), self.name, frozen)
             link.call(frozen, lambda response, problem: waiter.wake((response, problem)))
             self.node.wait(waiter)
         finally:
@@ -391,15 +381,11 @@ class ServiceClient:
             link = node.graph.transport.connect_service(node.uri, uri, header, cls)
         except TransportInitError as error:
             theirs = self._type_at(uri)
-            if theirs in (
-                cls._type,
-                _OTHER,
-            ):  # refused for another reason, such as a user-supplied header
+            if theirs in (cls._type, _OTHER):  # refused for another reason, such as a user-supplied header
                 msg = f"unable to connect to service [{self.name}]: {error}"
                 raise ServiceException(msg) from error
             msg = (
-                f"service [{self.name}] is a {theirs}, and was called as a {cls._type}: {error}. "
-                "Use the server's type."
+                f"service [{self.name}] is a {theirs}, and was called as a {cls._type}: {error}. Use the server's type."
             )
             raise ServiceException(msg) from error
         except TransportException as error:

@@ -199,9 +199,7 @@ class SlaveApi:
     def requestTopic(self, caller_id: str, topic: str, protocols: list[list[Any]]) -> Triple:
         """Return the connection parameters of a topic that this node publishes, for the first protocol that suits."""
         problem = _name_problem("topic", topic)
-        if not problem and not (
-            isinstance(protocols, list) and protocols and all(map(_is_protocol, protocols))
-        ):
+        if not problem and not (isinstance(protocols, list) and protocols and all(map(_is_protocol, protocols))):
             problem = "ERROR: parameter [protocols] must be specified and non-empty: a list of lists"
         if problem:
             return [-1, problem, []]

@@ -114,9 +114,7 @@ class Subscription:
         again = self._try_again(connection)
         if error is not None and is_first:
             node, who = self.node, connection.peer or connection.uri
-            hope = (
-                "tried again while the Master lists it" if again else "made again when a publisher registers"
-            )
+            hope = "tried again while the Master lists it" if again else "made again when a publisher registers"
             what = f"{node.name} cannot connect to {who}, which publishes {self.topic} at {connection.uri}"
             if was_open:
                 what = f"the connection of {node.name} to {who} on {self.topic} failed and was closed"

@@ -150,9 +150,7 @@ class Transport(Protocol):
         is refused.
         """
 
-    def connect_service(
-        self, caller: str, service_uri: str, header: Header, service_class: Any
-    ) -> ServiceLink:
+    def connect_service(self, caller: str, service_uri: str, header: Header, service_class: Any) -> ServiceLink:
         """Open a service connection of the node at ``caller``; may block.
 
         Raises ``TransportInitError`` if it is refused.
@@ -229,9 +227,7 @@ class Transports:
 
     def topic_parameters(self, uri: str, offers: list[list[Any]]) -> list[Any] | None:
         """Return the answer of ``requestTopic`` of the node at ``uri``, by the first of our transports in the offer."""
-        answers = (
-            transport.topic_parameters(uri, offer) for transport in self.transports for offer in offers
-        )
+        answers = (transport.topic_parameters(uri, offer) for transport in self.transports for offer in offers)
         return next((answer for answer in answers if answer is not None), None)
 
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:
@@ -257,9 +253,7 @@ class Transports:
                 return answer, close
         raise TransportInitError(f"the publisher answered with {shown(parameters)}, which was not offered")
 
-    def connect_service(
-        self, caller: str, service_uri: str, header: Header, service_class: Any
-    ) -> ServiceLink:
+    def connect_service(self, caller: str, service_uri: str, header: Header, service_class: Any) -> ServiceLink:
         """Open a service connection; see :class:`~rosmini.core.graph.transport.Transport`."""
         if header.get("service") in self.cut:
             raise TransportException("the connection was cut off on purpose; `%fault clear` ends the fault")
@@ -286,6 +280,4 @@ class Transports:
 
     def _transport_for(self, uri: str) -> Transport:
         """Return the first transport that reaches a node, or the last one, whose error explains best why none does."""
-        return next(
-            (transport for transport in self.transports if transport.reaches(uri)), self.transports[-1]
-        )
+        return next((transport for transport in self.transports if transport.reaches(uri)), self.transports[-1])

@@ -100,9 +100,7 @@ class MapFile:
         except FileNotFoundError as error:
             raise MapDataError(f"{place}: the field 'image' names {image}, which is not there") from error
         except images.ImageError as error:
-            raise MapDataError(
-                f"{place}: the field 'image' names {image}, which cannot be read: {error}"
-            ) from error
+            raise MapDataError(f"{place}: the field 'image' names {image}, which cannot be read: {error}") from error
         if found is None or not found.size:
             raise MapDataError(f"{place}: the image {image} has no pixels")
         return found
@@ -181,8 +179,7 @@ def _fields(document: _Document) -> Fields:
         hints = [hint for name in unknown if (hint := nearest(name, missing))]
         said = f" (it has {', '.join(unknown)}: {' '.join(hints)})" if hints else ""
         raise MapMetadataError(
-            f"{document.path}: the map has no field {missing[0]!r}{said}; it needs {', '.join(REQUIRED)}",
-            missing[0],
+            f"{document.path}: the map has no field {missing[0]!r}{said}; it needs {', '.join(REQUIRED)}", missing[0]
         )
     image = found["image"]
     if not isinstance(image, str) or not image:

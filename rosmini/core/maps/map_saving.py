@@ -17,14 +17,10 @@ OCCUPIED_FROM, FREE_TO = 65, 25
 """Cells are written as occupied from the first value on, as free up to the second [%], and else as unknown."""
 
 
-def pixels_of(
-    occupancy: NDArray[np.int8], occupied: int = OCCUPIED_FROM, free: int = FREE_TO
-) -> NDArray[np.uint8]:
+def pixels_of(occupancy: NDArray[np.int8], occupied: int = OCCUPIED_FROM, free: int = FREE_TO) -> NDArray[np.uint8]:
     """Return the pixels (h, w) for cells (h, w); row 0 of the cells is at the bottom, of the pixels at the top."""
     values = np.arange(-128, 128)
-    table = np.select([(values >= 0) & (values <= free), values >= occupied], [WHITE, BLACK], GREY).astype(
-        np.uint8
-    )
+    table = np.select([(values >= 0) & (values <= free), values >= occupied], [WHITE, BLACK], GREY).astype(np.uint8)
     pixels: NDArray[np.uint8] = np.roll(table, 128)[occupancy[::-1].view(np.uint8)]
     return pixels
 

@@ -117,12 +117,7 @@ class Cache(StampingFilter):
     """
 
     def __init__(
-        self,
-        f: SimpleFilter,
-        cache_size: int = 1,
-        allow_headerless: bool = False,
-        *,
-        node: Node | None = None,
+        self, f: SimpleFilter, cache_size: int = 1, allow_headerless: bool = False, *, node: Node | None = None
     ) -> None:
         super().__init__([f], allow_headerless=allow_headerless, node=node)
         self.cache_size = check_size("cache_size", cache_size)

@@ -33,9 +33,7 @@ class Policy(ABC):
 
     def __init__(self, count: int, queue_size: int, *, reset: bool = False) -> None:
         if count < 1:
-            raise MessageFilterError(
-                "there is nothing to synchronise: give a list of filters, one for each topic"
-            )
+            raise MessageFilterError("there is nothing to synchronise: give a list of filters, one for each topic")
         self.queue_size = check_size("queue_size", queue_size)
         self.reset = reset
         self.queues: list[Queue] = [{} for _ in range(count)]
@@ -108,8 +106,7 @@ class ApproximateTime(Policy):
             [stamp]
             if number == index
             else sorted(
-                (other for other in queue if abs(other - stamp) <= self.slop),
-                key=lambda other: abs(other - stamp),
+                (other for other in queue if abs(other - stamp) <= self.slop), key=lambda other: abs(other - stamp)
             )
             for number, queue in enumerate(self.queues)
         ]

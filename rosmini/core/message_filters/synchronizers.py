@@ -62,12 +62,7 @@ class TimeSynchronizer(StampingFilter):
         self._begin(filters, ExactTime(len(filters), queue_size, reset=reset), node=node)
 
     def _begin(
-        self,
-        filters: list[SimpleFilter],
-        policy: Policy,
-        *,
-        allow_headerless: bool = False,
-        node: Node | None = None,
+        self, filters: list[SimpleFilter], policy: Policy, *, allow_headerless: bool = False, node: Node | None = None
     ) -> None:
         StampingFilter.__init__(self, filters, allow_headerless=allow_headerless, node=node)
         self.policy = policy

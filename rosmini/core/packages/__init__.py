@@ -10,14 +10,7 @@ We do not use rospkg's crawler, as its order depends on the file system, and a s
 not XML makes it fail. Manifests are read by catkin_pkg, after defusedxml has checked them.
 """
 
-from .executables import (
-    DEVEL_MARKER,
-    NODES_GROUP,
-    SCRIPT_FOLDERS,
-    Executable,
-    built_in_nodes,
-    reconfigure_modules,
-)
+from .executables import DEVEL_MARKER, NODES_GROUP, SCRIPT_FOLDERS, Executable, built_in_nodes, reconfigure_modules
 from .folders import MANIFEST, Crawled, address_of, assets_dir, crawl, own_dirs, package_around, search_paths
 from .index import BUILT_IN, MAX_ADDRESS_LENGTH, SCHEME, PackageIndex
 from .manifest import Export, Package, Stack, read_package, read_stack

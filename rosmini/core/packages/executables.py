@@ -35,9 +35,7 @@ class Executable:
     def load(self) -> Any:
         """Return the object of the entry point. Raises `ScriptError` for a file, and if the import fails."""
         if self.entry_point is None:
-            raise ScriptError(
-                f"{self.package}/{self.name} is a file ({self.path}), not a built-in node; run it"
-            )
+            raise ScriptError(f"{self.package}/{self.name} is a file ({self.path}), not a built-in node; run it")
         try:
             return self.entry_point.load()
         except (ImportError, AttributeError) as error:
@@ -53,9 +51,7 @@ def built_in_nodes(package: str) -> dict[str, EntryPoint]:
 
     prefix = f"{package}/"
     found = (each for each in entry_points(group=NODES_GROUP) if each.name.startswith(prefix))
-    return {
-        each.name[len(prefix) :]: each for each in sorted(found, key=lambda each: (each.name, each.value))
-    }
+    return {each.name[len(prefix) :]: each for each in sorted(found, key=lambda each: (each.name, each.value))}
 
 
 def files_of(folder: Path) -> list[Path]:

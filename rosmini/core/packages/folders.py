@@ -24,9 +24,7 @@ def assets_dir() -> Path:
     for folder in (here / "_assets", here.parent / "assets"):
         if folder.is_dir():
             return folder
-    raise RosminiError(
-        f"rosmini's own packages are missing: no folder _assets in {here}; install rosmini again"
-    )
+    raise RosminiError(f"rosmini's own packages are missing: no folder _assets in {here}; install rosmini again")
 
 
 def address_of(path: Path) -> str:
@@ -92,6 +90,4 @@ def crawl(root: Path) -> Iterator[Crawled]:
         if content.get(STACK_MANIFEST) is False:
             yield Crawled(folder, STACK_MANIFEST)
         if "rospack_nosubdirs" not in content:
-            waiting.extend(
-                folder / name for name in sorted(content) if content[name] and not name.startswith(".")
-            )
+            waiting.extend(folder / name for name in sorted(content) if content[name] and not name.startswith("."))

@@ -52,9 +52,7 @@ class PackageIndex:
     """
 
     def __init__(self, paths: Iterable[str | os.PathLike[str]] | None = None) -> None:
-        self.paths: tuple[Path, ...] = (
-            search_paths() if paths is None else tuple(Path(path) for path in paths)
-        )
+        self.paths: tuple[Path, ...] = search_paths() if paths is None else tuple(Path(path) for path in paths)
         self._found: dict[str, list[Path]] | None = None
         self._metapackages: set[str] = set()
         self._stacks: dict[str, Path] = {}
@@ -211,9 +209,7 @@ class PackageIndex:
         return self._found
 
     def _unknown(self, name: str) -> str:
-        searched = "".join(
-            f"\n  {path}{'' if path.is_dir() else '  (there is no such folder)'}" for path in self.paths
-        )
+        searched = "".join(f"\n  {path}{'' if path.is_dir() else '  (there is no such folder)'}" for path in self.paths)
         guess = BUILT_IN.get(name) or nearest(name, self.names())
         lines = [f"there is no package {name!r}{f'; {guess}' if guess else ''}"]
         lines.append(f"searched:{searched or ' nothing, the list of folders is empty'}")

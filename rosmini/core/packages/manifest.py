@@ -101,9 +101,7 @@ def read_heading(manifest: Path) -> Heading:
         raise DefinitionError(f"a manifest begins with <package>, this one with <{root.tag}>", manifest, 1)
     name = (root.findtext("name") or "").strip()
     if not name:
-        raise DefinitionError(
-            "the package has no name; add <name>...</name>", manifest, _line_at_fault(text, "")
-        )
+        raise DefinitionError("the package has no name; add <name>...</name>", manifest, _line_at_fault(text, ""))
     return Heading(name, root.find("export/metapackage") is not None)
 
 
@@ -133,9 +131,7 @@ def read_package(folder: Path) -> Package:
         version=parsed.version,
         description=" ".join(parsed.plaintext_description.split()),
         depends=tuple(sorted({each.name for each in needed if each.evaluated_condition})),
-        exec_depends=tuple(
-            dict.fromkeys(each.name for each in parsed.exec_depends if each.evaluated_condition)
-        ),
+        exec_depends=tuple(dict.fromkeys(each.name for each in parsed.exec_depends if each.evaluated_condition)),
         is_metapackage=parsed.is_metapackage(),
         exports=tuple(
             Export(each.tagname, tuple((str(name), str(text)) for name, text in each.attributes.items()))

@@ -129,9 +129,7 @@ def _assignments(name: str, value: Any, place: str) -> Iterator[tuple[str, Any]]
 
 def _checked(name: str, value: Any, place: str) -> Any:
     if isinstance(value, list):
-        return [
-            _checked(f"{name}[{number}]", item, f"{place}[{number}]") for number, item in enumerate(value)
-        ]
+        return [_checked(f"{name}[{number}]", item, f"{place}[{number}]") for number, item in enumerate(value)]
     if isinstance(value, dict):
         for key in value:
             if not isinstance(key, str):

@@ -100,9 +100,7 @@ class BufferCore:
     ) -> tuple[bool, str]:
         """Return whether the lookup with two times would succeed, and the error if not."""
         return _verdict(
-            lambda: self.lookup_transform_full_core(
-                target_frame, target_time, source_frame, source_time, fixed_frame
-            )
+            lambda: self.lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)
         )
 
     def get_latest_common_time(self, source_frame: str, dest_frame: str) -> Time:
@@ -117,8 +115,7 @@ class BufferCore:
     def all_frames_as_string(self) -> str:
         """Return a sentence for each edge, as tf words it."""
         return "".join(
-            f"Frame {frame} exists with parent {edge.newest.parent}.\n"
-            for frame, edge in self.tree.edges.items()
+            f"Frame {frame} exists with parent {edge.newest.parent}.\n" for frame, edge in self.tree.edges.items()
         )
 
     def all_frames_as_dot(self) -> str:
@@ -301,9 +298,7 @@ class Buffer(BufferCore):
         )
         return transformed(object_stamped, found, self._warn_once)
 
-    def transform_points(
-        self, points: Any, target_frame: str, source_frame: str, time: Time = LATEST
-    ) -> Floats:
+    def transform_points(self, points: Any, target_frame: str, source_frame: str, time: Time = LATEST) -> Floats:
         """Return points (..., 3) [m] of one frame in another; see `scan_points` for those of a laser scan."""
         found = self.tree.lookup(target_frame, source_frame, time.to_nsec())
         return transform_points(found.transform, points)

@@ -119,15 +119,7 @@ def find(stamps: Sequence[int], begin: int, end: int, stamp_ns: int) -> int:
 def sample(values: Sequence[float], place: int) -> Rigid:
     """Return the transform at an index of the flat `values`."""
     k = 7 * place
-    return (
-        values[k],
-        values[k + 1],
-        values[k + 2],
-        values[k + 3],
-        values[k + 4],
-        values[k + 5],
-        values[k + 6],
-    )
+    return (values[k], values[k + 1], values[k + 2], values[k + 3], values[k + 4], values[k + 5], values[k + 6])
 
 
 def walk(
@@ -178,9 +170,7 @@ def walk(
             else:
                 earlier = stamps[place - 1]
                 step = interpolate(
-                    sample(values, place - 1),
-                    sample(values, place),
-                    (stamp_ns - earlier) / (later - earlier),
+                    sample(values, place - 1), sample(values, place), (stamp_ns - earlier) / (later - earlier)
                 )
         if n < ups:
             up = step if n == 0 else compose(step, up)

@@ -100,9 +100,7 @@ class RepeatingTransformPublisher:
                 f"static_transform_publisher: {error} as the period.\n{USAGE.format(period=usage)}"
             ) from error
         if self.period.to_nsec() <= 0:
-            raise ScriptError(
-                f"the period must be positive, not {arguments[-1]} ms.\n{USAGE.format(period=usage)}"
-            )
+            raise ScriptError(f"the period must be positive, not {arguments[-1]} ms.\n{USAGE.format(period=usage)}")
         self.node = node
         self.broadcaster = TransformBroadcaster(node)
         self.timer = node.timer(self.period, lambda _event: self.send())
@@ -140,9 +138,7 @@ class TfEcho:
         try:
             period = 1 / float(echo_rate)
         except (ValueError, ZeroDivisionError) as error:
-            raise ScriptError(
-                f"tf_echo: {echo_rate!r} is not a rate: give the number of outputs per second"
-            ) from error
+            raise ScriptError(f"tf_echo: {echo_rate!r} is not a rate: give the number of outputs per second") from error
         self.node = node
         self.frames = source_frame.lstrip("/"), target_frame.lstrip("/")
         self.buffer = TransformListener(node).buffer
@@ -197,9 +193,7 @@ class TfMonitor:
 
     def __init__(self, node: Node, framea: str = "", frameb: str = "") -> None:
         if bool(framea) != bool(frameb):
-            raise ScriptError(
-                "Usage: tf_monitor or tf_monitor framea frameb: two frames make a chain, none means all"
-            )
+            raise ScriptError("Usage: tf_monitor or tf_monitor framea frameb: two frames make a chain, none means all")
         self.node = node
         self.chain = (framea.lstrip("/"), frameb.lstrip("/")) if framea else None
         self.buffer = Buffer(node)
@@ -247,14 +241,9 @@ class TfMonitor:
                 f"Net delay     avg = {sum(delays) / len(delays):.6g}: max = {max(0.0, *delays):.6g}"
             )
         lines = [head, "", "Frames:"]
-        lines += [
-            f"Frame: {frame} published by {self.frames[frame].sender} {self.frames[frame]}"
-            for frame in wanted
-        ]
+        lines += [f"Frame: {frame} published by {self.frames[frame].sender} {self.frames[frame]}" for frame in wanted]
         lines += ["", "All Broadcasters:"]
-        lines += [
-            f"Node: {name} {delays.rate:.6g} Hz, {delays}" for name, delays in sorted(self.senders.items())
-        ]
+        lines += [f"Node: {name} {delays.rate:.6g} Hz, {delays}" for name, delays in sorted(self.senders.items())]
         print("\n".join(["", "", "", *lines]))
 
 

@@ -37,9 +37,7 @@ __all__ = [
 Floats = NDArray[np.float64]
 
 
-def rigid(
-    translation: Sequence[float] = (0.0, 0.0, 0.0), rotation: Sequence[float] = (0.0, 0.0, 0.0, 1.0)
-) -> Rigid:
+def rigid(translation: Sequence[float] = (0.0, 0.0, 0.0), rotation: Sequence[float] = (0.0, 0.0, 0.0, 1.0)) -> Rigid:
     """Return a translation (3) [m] and a quaternion (4: x, y, z, w) as a transform, with the quaternion normalised.
 
     Raises `InvalidArgumentException` for a quaternion of length 0.

@@ -89,14 +89,7 @@ class FrameTree:
     # -- input --------------------------------------------------------------------------------------------------
 
     def set(
-        self,
-        parent: str,
-        child: str,
-        transform: Rigid,
-        stamp_ns: int,
-        authority: str = "",
-        *,
-        static: bool = False,
+        self, parent: str, child: str, transform: Rigid, stamp_ns: int, authority: str = "", *, static: bool = False
     ) -> bool:
         """Add the transform of `child` in `parent` at a time [ns], sent by `authority`; return True if accepted.
 
@@ -110,9 +103,7 @@ class FrameTree:
             return False
         history = self.edges.get(child)
         if history is None:
-            history = self.edges[child] = History(
-                child, self._samples, self.cache_ns, parent, authority, static=static
-            )
+            history = self.edges[child] = History(child, self._samples, self.cache_ns, parent, authority, static=static)
             self._structure_changed(parent, child)
         elif history.newest.parent != parent:
             self._warnings.two_parents(history, parent, authority)
@@ -291,9 +282,7 @@ class FrameTree:
                 source_edges = tuple(self.edges[other] for other in up[: place[frame]])
                 target_edges = tuple(self.edges[other] for other in down)
                 edge_numbers = np.array([edge.number for edge in source_edges + target_edges], dtype=np.int64)
-                path = Path(
-                    source_edges, target_edges, edge_numbers if self._samples.compiled else edge_numbers.data
-                )
+                path = Path(source_edges, target_edges, edge_numbers if self._samples.compiled else edge_numbers.data)
                 break
             down.append(frame)
         else:
@@ -327,6 +316,5 @@ def _numba_is_loaded() -> bool:
 def _common(path: Path) -> int:
     """Return the oldest of the newest samples [ns] on a path. As in tf2, a sample stamped 0 is valid at all times."""
     return min(
-        [edge.newest_ns for edge in path.source + path.target if not edge.static and edge.newest_ns],
-        default=LATEST,
+        [edge.newest_ns for edge in path.source + path.target if not edge.static and edge.newest_ns], default=LATEST
     )

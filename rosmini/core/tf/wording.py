@@ -105,9 +105,7 @@ class ErrorTexts:
         gap = stamp_ns - newest if future else oldest - stamp_ns
         where = f"when looking up transform from frame [{source}] to frame [{target}]"
         interval = (
-            f"only at {seconds(newest)} s"
-            if len(edge) == 1
-            else f"from {seconds(oldest)} s to {seconds(newest)} s"
+            f"only at {seconds(newest)} s" if len(edge) == 1 else f"from {seconds(oldest)} s to {seconds(newest)} s"
         )
         rate = f", {edge.rate:.1f} Hz" if len(edge) > 1 else ""
         sender = f", from {edge.newest.authority}" if edge.newest.authority else ""

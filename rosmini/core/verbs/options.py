@@ -46,9 +46,7 @@ class Parser(OptionParser):
         failure: Callable[[str], UsageError] = UsageError,
     ) -> None:
         epilog = f"Example:\n{example}" if example else None
-        super().__init__(
-            usage=usage, description=description, prog=tool, epilog=epilog, formatter=_Formatter()
-        )
+        super().__init__(usage=usage, description=description, prog=tool, epilog=epilog, formatter=_Formatter())
         self._failure = failure
 
     def error(self, msg: str) -> NoReturn:
@@ -87,20 +85,14 @@ def dashed_remapping(words: Iterable[str]) -> str:
     """Return the error in the first word like ``--name:=x``, or an empty text: ROS uses ``__name:=x``."""
     found = next((word for word in words if word.startswith("-") and ":=" in word), "")
     return (
-        f"{found} is no remapping; ROS's own names begin with two underscores: __{found.lstrip('-')}"
-        if found
-        else ""
+        f"{found} is no remapping; ROS's own names begin with two underscores: __{found.lstrip('-')}" if found else ""
     )
 
 
 def below_here(call: Call) -> Callable[[str], object]:
     """Return ``call.say``; for a verb called from Python, a variant that shortens paths below the working directory."""
     here = str(Path.cwd())
-    return (
-        call.say
-        if call.in_terminal
-        else lambda text: call.say(text.replace(here + os.sep, "").replace(here, "."))
-    )
+    return call.say if call.in_terminal else lambda text: call.say(text.replace(here + os.sep, "").replace(here, "."))
 
 
 def add_duration(parser: Parser) -> None:
@@ -119,7 +111,5 @@ def duration_ns(given: Values, call: Call) -> int | None:
     if seconds is None and not call.in_terminal:
         seconds = DURATION_S
         if call.tells_time and not getattr(given, "count", None):
-            call.say(
-                f"({DURATION_S:g} s of graph time; --duration says how many, in a terminal it is until Ctrl-C)"
-            )
+            call.say(f"({DURATION_S:g} s of graph time; --duration says how many, in a terminal it is until Ctrl-C)")
     return None if seconds is None else round(max(seconds, 0.0) * 1e9)

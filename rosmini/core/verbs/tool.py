@@ -217,9 +217,7 @@ class Tool:
 
         def add(act: Callable[[Any, Call], Result]) -> Callable[[Any, Call], Result]:
             known = name or act.__name__
-            self.verbs[known] = Verb(
-                known, summary, parser, act, needs_graph, only_asks, in_terminal, is_listed, takes
-            )
+            self.verbs[known] = Verb(known, summary, parser, act, needs_graph, only_asks, in_terminal, is_listed, takes)
             return act
 
         return add

@@ -91,9 +91,7 @@ def cast_beams(clear: Table, poses: Floats, bearings: Floats, limit: float) -> F
     return np.minimum(found, longest).astype(np.float64).reshape(len(poses), beams)
 
 
-def rays_from(
-    shape: tuple[int, ...], poses: Floats, bearings: Floats, nudge: float
-) -> tuple[Table, NDArray[np.int32]]:
+def rays_from(shape: tuple[int, ...], poses: Floats, bearings: Floats, nudge: float) -> tuple[Table, NDArray[np.int32]]:
     """Return the values that `cast_beams` needs for each beam (8, n b), and the index (n b,) of its first cell.
 
     The rows are pairs of x and y: direction; start within the cell; coordinate at which a beam leaves a cell, which is

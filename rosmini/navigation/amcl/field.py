@@ -63,9 +63,7 @@ class LikelihoodField:
         self.blocked = self.occupied if free is None else ~np.ascontiguousarray(free)
         self.resolution, self.origin, self.farthest = float(resolution), origin, float(farthest)
         cells = max(1, round(farthest / resolution))
-        self.distance: Table = np.minimum(distances(self.occupied, cells) * resolution, farthest).astype(
-            np.float32
-        )
+        self.distance: Table = np.minimum(distances(self.occupied, cells) * resolution, farthest).astype(np.float32)
         """Distances (h, w) to the nearest occupied cell [m]."""
         self._table: tuple[tuple[BeamMixture, float, Form], Table, float] | None = None
         """The table used last, kept for further beams of the same laser."""
@@ -80,9 +78,7 @@ class LikelihoodField:
             steps = np.rint((self.distance / self.resolution) ** 2).astype(np.int32)
             values = np.arange(int(steps.max()) + 1) * self.resolution**2
             values = np.append(np.minimum(values, self.farthest**2), self.farthest**2)
-            density = (
-                mixture.z_hit * np.exp(-values / (2 * mixture.sigma_hit**2)) + mixture.z_rand / range_max
-            )
+            density = mixture.z_hit * np.exp(-values / (2 * mixture.sigma_hit**2)) + mixture.z_rand / range_max
             formed = (density * density * density if form == "cube" else np.log(density)).astype(np.float32)
             self._table = wanted, formed[steps], float(formed[-1])
         _, table, outside = self._table

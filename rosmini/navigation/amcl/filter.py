@@ -80,9 +80,7 @@ class ParticleFilter:
         selective: bool = False,
     ) -> None:
         if not 1 <= fewest <= most:
-            raise RosminiError(
-                f"min_particles ({fewest}) must be at least 1 and at most max_particles ({most})"
-            )
+            raise RosminiError(f"min_particles ({fewest}) must be at least 1 and at most max_particles ({most})")
         self.fewest, self.most, self.error, self.quantile = fewest, most, error, quantile
         self.slow, self.fast, self.selective = slow, fast, selective
         self.random = random
@@ -158,9 +156,7 @@ class ParticleFilter:
         share = self.random_share
         parts = np.rint(self.weights * WEIGHT_UNITS).astype(np.int64)
         ends = np.cumsum(parts)
-        drawn = self.particles[
-            np.searchsorted(ends, self.random.integers(ends[-1], size=self.most), side="right")
-        ]
+        drawn = self.particles[np.searchsorted(ends, self.random.integers(ends[-1], size=self.most), side="right")]
         lost = self.random.random(self.most) < share
         if lost.any():
             drawn[lost] = uniform(int(lost.sum()))
@@ -264,8 +260,6 @@ def cluster_of(particles: Floats, weights: Floats) -> Cluster:
     return Cluster(weight, (x, y, math.atan2(sin, cos)), covariance, len(particles))
 
 
-def show_steps(
-    grid: Any, steps: Sequence[tuple[str, ArrayLike, ArrayLike | None, Any]], **options: Any
-) -> Any:
+def show_steps(grid: Any, steps: Sequence[tuple[str, ArrayLike, ArrayLike | None, Any]], **options: Any) -> Any:
     """Draw a filter on a map in steps; a step is a name, particles (n, 3), weights or None, true pose or None."""
     return show("filter_steps", grid, steps=steps, **options)

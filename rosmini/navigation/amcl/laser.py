@@ -160,9 +160,5 @@ def _beam(
 _Model = Callable[[LikelihoodField, Floats, Scan, Floats, Floats, BeamMixture, "BeamSkip | None"], Floats]
 
 _MODELS: MappingProxyType[str, _Model] = MappingProxyType(
-    {
-        "beam": _beam,
-        "likelihood_field": _likelihood_field,
-        "likelihood_field_prob": _likelihood_field_prob,
-    }
+    {"beam": _beam, "likelihood_field": _likelihood_field, "likelihood_field_prob": _likelihood_field_prob}
 )

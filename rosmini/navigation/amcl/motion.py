@@ -26,12 +26,7 @@ MIN_DISTANCE = 0.01
 
 
 def sample_motion_model(
-    particles: Floats,
-    before: Pose,
-    after: Pose,
-    alphas: Sequence[float],
-    noise: Floats,
-    model: str = "diff",
+    particles: Floats, before: Pose, after: Pose, alphas: Sequence[float], noise: Floats, model: str = "diff"
 ) -> Floats:
     """Return particles (n, 3) after a motion reported by the odometry, each with a random error.
 
@@ -50,18 +45,14 @@ def sample_motion_model(
     """
     if model not in MODELS:
         hint = nearest(model, MODELS)
-        raise RosminiError(
-            f"unknown odometry model {model!r}; the models are {', '.join(MODELS)}. {hint}".rstrip()
-        )
+        raise RosminiError(f"unknown odometry model {model!r}; the models are {', '.join(MODELS)}. {hint}".rstrip())
     x, y, turn = compose(inverse(before), after)
     turn = normalize_angle(turn)
     sample = _diff if model.startswith("diff") else _omni
     return sample(particles, (x, y, turn), alphas, noise, corrected=model.endswith("corrected"))
 
 
-def _diff(
-    particles: Floats, motion: Pose, alphas: Sequence[float], noise: Floats, *, corrected: bool
-) -> Floats:
+def _diff(particles: Floats, motion: Pose, alphas: Sequence[float], noise: Floats, *, corrected: bool) -> Floats:
     """Sample a turn, a straight drive and another turn, for a robot with differential drive."""
     x, y, turn = motion
     distance = math.hypot(x, y)
@@ -86,27 +77,17 @@ def _diff(
     )
 
 
-def _omni(
-    particles: Floats, motion: Pose, alphas: Sequence[float], noise: Floats, *, corrected: bool
-) -> Floats:
+def _omni(particles: Floats, motion: Pose, alphas: Sequence[float], noise: Floats, *, corrected: bool) -> Floats:
     """Sample a drive in any direction with a turn, for an omnidirectional robot."""
     x, y, turn = motion
     distance = math.hypot(x, y)
     a1, a2, a3, a4, a5 = alphas
     if corrected:
-        variances = (
-            a3 * distance**2 + a4 * turn**2,
-            a4 * turn**2 + a5 * distance**2,
-            a1 * turn**2 + a2 * distance**2,
-        )
+        variances = (a3 * distance**2 + a4 * turn**2, a4 * turn**2 + a5 * distance**2, a1 * turn**2 + a2 * distance**2)
         spread = np.sqrt(variances)
     else:
         spread = np.array(
-            (
-                a3 * distance**2 + a1 * turn**2,
-                a1 * turn**2 + a5 * distance**2,
-                a4 * turn**2 + a2 * distance**2,
-            )
+            (a3 * distance**2 + a1 * turn**2, a1 * turn**2 + a5 * distance**2, a4 * turn**2 + a2 * distance**2)
         )
     along, aside, turned = (np.array((distance, 0.0, turn)) + noise * spread).T
     bearing = math.atan2(y, x) + particles[:, 2]

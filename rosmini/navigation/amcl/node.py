@@ -100,10 +100,7 @@ class Amcl:
     def _subscribe(self) -> None:
         node = self.node
         node.subscriber(
-            "initialpose",
-            message_class("geometry_msgs/PoseWithCovarianceStamped"),
-            self._initial_pose,
-            queue_size=2,
+            "initialpose", message_class("geometry_msgs/PoseWithCovarianceStamped"), self._initial_pose, queue_size=2
         )
         node.subscriber("scan", message_class("sensor_msgs/LaserScan"), self._scan, queue_size=100)
         if self.parameters.use_map_topic:
@@ -142,10 +139,7 @@ class Amcl:
         self._lasers = {}
         if level != -1 or self.parameters != before:
             self.localizer.configure(self.parameters)
-            if (
-                self.parameters.laser_likelihood_max_dist != before.laser_likelihood_max_dist
-                and self._map is not None
-            ):
+            if self.parameters.laser_likelihood_max_dist != before.laser_likelihood_max_dist and self._map is not None:
                 self._take_map(self._map, again=True)
         return config
 
@@ -248,9 +242,7 @@ class Amcl:
         """Restart around a given pose, moved by the odometry since the message's stamp."""
         p, frame = self.parameters, message.header.frame_id
         if not frame:
-            self.node.logwarn(
-                "Received initial pose with empty frame_id.  You should always supply a frame_id."
-            )
+            self.node.logwarn("Received initial pose with empty frame_id.  You should always supply a frame_id.")
         elif frame.lstrip("/") != p.global_frame_id.lstrip("/"):
             self.node.logwarn(
                 f'Ignoring initial pose in frame "{frame}"; initial poses must be in the global frame, '
@@ -263,9 +255,7 @@ class Amcl:
             self.node.logwarn(f"ignoring an initial pose: {error}")
             return
         pose = compose(pose, self._motion_since(message.header.stamp))
-        self.node.loginfo(
-            f"Setting pose ({self.node.now().to_sec():.6f}): {pose[0]:.3f} {pose[1]:.3f} {pose[2]:.3f}"
-        )
+        self.node.loginfo(f"Setting pose ({self.node.now().to_sec():.6f}): {pose[0]:.3f} {pose[1]:.3f} {pose[2]:.3f}")
         self._warn_outside(pose)
         self.localizer.initialize(pose, covariance)
         if p.force_update_after_initialpose:
@@ -349,9 +339,7 @@ class Amcl:
     def _laser(self, frame: str) -> tuple[Pose, bool]:
         """Return the laser's pose on the robot, and True if it is mounted upside down."""
         if frame not in self._lasers:
-            found = self.buffer.lookup_transform(
-                self.parameters.base_frame_id, frame, Time(0), TRANSFORM_TIMEOUT
-            )
+            found = self.buffer.lookup_transform(self.parameters.base_frame_id, frame, Time(0), TRANSFORM_TIMEOUT)
             q = found.transform.rotation
             up = 1 - 2 * (q.x * q.x + q.y * q.y)
             self._lasers[frame] = planar_transform(found), up < 0
@@ -432,14 +420,7 @@ class Amcl:
             return
         x, y, a = self._estimate.pose
         c = self._estimate.covariance
-        values = {
-            "pose_x": x,
-            "pose_y": y,
-            "pose_a": a,
-            "cov_xx": c[0, 0],
-            "cov_yy": c[1, 1],
-            "cov_aa": c[2, 2],
-        }
+        values = {"pose_x": x, "pose_y": y, "pose_a": a, "cov_xx": c[0, 0], "cov_yy": c[1, 1], "cov_aa": c[2, 2]}
         for name, value in values.items():
             self.node.set_param(f"~initial_{name}", float(value))
 

@@ -29,25 +29,17 @@ class AmclConfig(Parameters):
     odom_frame_id: str = parameter("odom", "the odometry's frame")
     base_frame_id: str = parameter("base_link", "the robot's frame")
     global_frame_id: str = parameter("map", "the map's frame")
-    update_min_d: float = parameter(
-        0.2, "distance driven before an update", unit="m", minimum=0.0, maximum=5.0
-    )
+    update_min_d: float = parameter(0.2, "distance driven before an update", unit="m", minimum=0.0, maximum=5.0)
     update_min_a: float = parameter(
         math.pi / 6, "angle turned before an update", unit="rad", minimum=0.0, maximum=math.tau
     )
     min_particles: int = parameter(100, "minimum number of particles", minimum=0, maximum=1000)
     max_particles: int = parameter(5000, "maximum number of particles", minimum=0, maximum=10000)
     kld_err: float = parameter(
-        0.01,
-        "maximum divergence between the true and the estimated distribution",
-        minimum=0.0,
-        maximum=1.0,
+        0.01, "maximum divergence between the true and the estimated distribution", minimum=0.0, maximum=1.0
     )
     kld_z: float = parameter(
-        0.99,
-        "normal quantile of the probability that the divergence is below kld_err",
-        minimum=0.0,
-        maximum=1.0,
+        0.99, "normal quantile of the probability that the divergence is below kld_err", minimum=0.0, maximum=1.0
     )
     resample_interval: int = parameter(2, "number of updates between resamplings", minimum=0, maximum=20)
     selective_resampling: bool = parameter(
@@ -68,33 +60,21 @@ class AmclConfig(Parameters):
         maximum=1000.0,
     )
     laser_max_range: float = parameter(
-        -1.0,
-        "longer beams count as no hit; -1: the scan's range_max",
-        unit="m",
-        minimum=-1.0,
-        maximum=1000.0,
+        -1.0, "longer beams count as no hit; -1: the scan's range_max", unit="m", minimum=-1.0, maximum=1000.0
     )
     laser_max_beams: int = parameter(30, "number of beams of a scan that are used", minimum=0, maximum=250)
-    laser_z_hit: float = parameter(
-        0.95, "share of beams that hit an obstacle in the map", minimum=0.0, maximum=1.0
-    )
-    laser_z_short: float = parameter(
-        0.1, "share of beams that end early (beam only)", minimum=0.0, maximum=1.0
-    )
+    laser_z_hit: float = parameter(0.95, "share of beams that hit an obstacle in the map", minimum=0.0, maximum=1.0)
+    laser_z_short: float = parameter(0.1, "share of beams that end early (beam only)", minimum=0.0, maximum=1.0)
     laser_z_max: float = parameter(0.05, "share of beams without a hit (beam only)", minimum=0.0, maximum=1.0)
     laser_z_rand: float = parameter(0.05, "share of beams that end anywhere", minimum=0.0, maximum=1.0)
-    laser_sigma_hit: float = parameter(
-        0.2, "deviation of a beam that hits", unit="m", minimum=0.0, maximum=10.0
-    )
+    laser_sigma_hit: float = parameter(0.2, "deviation of a beam that hits", unit="m", minimum=0.0, maximum=10.0)
     laser_lambda_short: float = parameter(
         0.1, "decay of beams that end early (beam only)", unit="1/m", minimum=0.0, maximum=10.0
     )
     laser_likelihood_max_dist: float = parameter(
         2.0, "upper bound of the distance to an obstacle", unit="m", minimum=0.0, maximum=20.0
     )
-    do_beamskip: bool = parameter(
-        False, "ignore beams that most particles cannot explain (likelihood_field_prob only)"
-    )
+    do_beamskip: bool = parameter(False, "ignore beams that most particles cannot explain (likelihood_field_prob only)")
     beam_skip_distance: float = parameter(
         0.5,
         "a beam agrees with a particle if it ends within this distance of an obstacle",
@@ -102,9 +82,7 @@ class AmclConfig(Parameters):
         minimum=0.0,
         maximum=2.0,
     )
-    beam_skip_threshold: float = parameter(
-        0.3, "share of particles a beam has to agree with", minimum=0.0, maximum=1.0
-    )
+    beam_skip_threshold: float = parameter(0.3, "share of particles a beam has to agree with", minimum=0.0, maximum=1.0)
     tf_broadcast: bool = parameter(True, "publish the transform from the map to the odometry's frame")
     transform_tolerance: float = parameter(
         0.1, "how far the published transform is dated in the future", unit="s", minimum=0.0, maximum=2.0
@@ -136,9 +114,7 @@ class AmclParameters(AmclConfig):
 
     allowed = ("bag_scan_period", "tf_prefix")
 
-    beam_skip_error_threshold: float = parameter(
-        0.9, "if a larger fraction of beams would be ignored, all are used"
-    )
+    beam_skip_error_threshold: float = parameter(0.9, "if a larger fraction of beams would be ignored, all are used")
     std_warn_level_x: float = parameter(
         0.2, "standard deviation above which `/diagnostics` warns; negative: never", unit="m"
     )
@@ -157,12 +133,8 @@ class AmclParameters(AmclConfig):
     initial_pose_a: float = parameter(
         0.0, "its heading at the start", unit="rad", minimum=-MAX_COORDINATE, maximum=MAX_COORDINATE
     )
-    initial_cov_xx: float = parameter(
-        0.25, "how sure that is: a variance", unit="m2", minimum=0.0, maximum=1e6
-    )
-    initial_cov_yy: float = parameter(
-        0.25, "how sure that is: a variance", unit="m2", minimum=0.0, maximum=1e6
-    )
+    initial_cov_xx: float = parameter(0.25, "how sure that is: a variance", unit="m2", minimum=0.0, maximum=1e6)
+    initial_cov_yy: float = parameter(0.25, "how sure that is: a variance", unit="m2", minimum=0.0, maximum=1e6)
     initial_cov_aa: float = parameter(
         (math.pi / 12) ** 2, "how sure that is: a variance", unit="rad2", minimum=0.0, maximum=1e6
     )

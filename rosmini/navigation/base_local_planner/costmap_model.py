@@ -27,9 +27,7 @@ def footprint_cost(grid: Costmap2D, pose: Pose, footprint: ArrayLike) -> int:
     outline = np.ascontiguousarray(footprint, dtype=np.float64).reshape(-1, 2)
     costs = np.ascontiguousarray(grid.costs).reshape(-1)
     size = grid.width, grid.height
-    found = compiled_footprint_cost()(
-        costs, *size, *grid.origin, grid.resolution, *map(float, pose), outline, 1.0
-    )
+    found = compiled_footprint_cost()(costs, *size, *grid.origin, grid.resolution, *map(float, pose), outline, 1.0)
     return int(found)
 
 
@@ -49,9 +47,7 @@ def line_cells(x: int, y: int, end_x: int, end_y: int) -> list[tuple[int, int]]:
     return cells
 
 
-def footprint_cells(
-    grid: Costmap2D, pose: Pose, footprint: ArrayLike, *, fill: bool
-) -> list[tuple[int, int]]:
+def footprint_cells(grid: Costmap2D, pose: Pose, footprint: ArrayLike, *, fill: bool) -> list[tuple[int, int]]:
     """Return the cells (mx, my) under a footprint's outline at `pose`; with `fill`, also those inside it.
 
     The outline stops where it leaves the map, as in base_local_planner's `FootprintHelper`.

@@ -69,9 +69,7 @@ class Following:
             part, self.poses = part[passed:], self.poses[passed:]
         if not len(part):
             size = self.costmap.grid.size_m
-            away = (
-                float(np.hypot(*(self.poses[:, :2] - here[:2]).T).min()) if len(self.poses) else float("nan")
-            )
+            away = float(np.hypot(*(self.poses[:, :2] - here[:2]).T).min()) if len(self.poses) else float("nan")
             raise ControlFailure(
                 f"Received an empty transformed plan: its nearest pose is {away:.2f} m from the robot, out of "
                 f"reach of the local costmap of {size[0]:.2f} m x {size[1]:.2f} m",
@@ -87,8 +85,7 @@ class Following:
             found = self.buffer.tree.lookup(self.costmap.global_frame, self.frame)
         except TransformException as error:
             raise TransformMissing(
-                f"Could not transform the global plan to the frame of the controller: {error}",
-                frame=self.frame,
+                f"Could not transform the global plan to the frame of the controller: {error}", frame=self.frame
             ) from error
         x, y, _, qx, qy, qz, qw = found.transform
         return x, y, float(np.arctan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz)))
@@ -141,9 +138,7 @@ class Publications:
                 (samples.trajectory(int(n)), samples.totals[n]) for n in np.flatnonzero(samples.accepted)
             )
         ]
-        self._cloud(
-            publisher, ("x", "y", "z", "theta", "cost"), np.vstack(rows) if rows else np.empty((0, 5))
-        )
+        self._cloud(publisher, ("x", "y", "z", "theta", "cost"), np.vstack(rows) if rows else np.empty((0, 5)))
 
     def _cloud(self, publisher: Any, names: Sequence[str], rows: Floats) -> None:
         publisher.publish(point_cloud(self.frame, self.node.now(), names, rows))
@@ -184,13 +179,9 @@ def sim_period(node: Node, label: str) -> float:
         name = node.search_param("controller_frequency") or ""
     frequency = node.get_param(name) if name else 20.0
     if isinstance(frequency, bool) or not isinstance(frequency, int | float):
-        raise ParameterError(
-            f"parameter {node.resolve_parameter(name)} is {frequency!r}; it must be a number [Hz]"
-        )
+        raise ParameterError(f"parameter {node.resolve_parameter(name)} is {frequency!r}; it must be a number [Hz]")
     if frequency <= 0:
-        node.logwarn(
-            "A controller_frequency less than 0 has been set. Ignoring the parameter, assuming a rate of 20Hz"
-        )
+        node.logwarn("A controller_frequency less than 0 has been set. Ignoring the parameter, assuming a rate of 20Hz")
         frequency = 20.0
     node.loginfo(f"Sim period is set to {1 / frequency:.2f}")
     return 1 / frequency
@@ -209,9 +200,7 @@ def ignore(node: Node, label: str, names: Iterable[str], whose: str) -> None:
     """Warn of parameters that this planner does not read, although files for real robots contain them."""
     for name in names:
         if node.has_param(label + name):
-            node.logwarn(
-                f"parameter {node.resolve_parameter(label + name)} is not read by this planner: {whose}"
-            )
+            node.logwarn(f"parameter {node.resolve_parameter(label + name)} is not read by this planner: {whose}")
 
 
 def no_command(text: str, samples: Samples) -> NoValidCommand:
@@ -221,12 +210,8 @@ def no_command(text: str, samples: Samples) -> NoValidCommand:
     tried = len(samples) + samples.refused
     if samples.refused:
         number = str(samples.refused) if len(samples) else "all"
-        listed += [
-            f"{number} are slower than the minimum velocities of the robot, or faster than the maximum"
-        ]
-    return NoValidCommand(
-        f"{text}: of {tried} sampled velocities, {', '.join(listed)}", sampled=tried, rejected=counts
-    )
+        listed += [f"{number} are slower than the minimum velocities of the robot, or faster than the maximum"]
+    return NoValidCommand(f"{text}: of {tried} sampled velocities, {', '.join(listed)}", sampled=tried, rejected=counts)
 
 
 def twist(command: Floats) -> Any:

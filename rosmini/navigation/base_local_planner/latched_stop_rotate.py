@@ -50,13 +50,7 @@ class LatchedStopRotate:
         )
 
     def command(
-        self,
-        pose: Pose,
-        velocity: Floats,
-        goal: Pose,
-        limits: LocalPlannerLimits,
-        period: float,
-        why_not: Check,
+        self, pose: Pose, velocity: Floats, goal: Pose, limits: LocalPlannerLimits, period: float, why_not: Check
     ) -> Floats:
         """Return the velocity (3) to command at the goal; `period` [s] is the time between two commands.
 
@@ -67,9 +61,7 @@ class LatchedStopRotate:
             self.rotating = False
             return np.zeros(3)
         if not self.rotating and not is_stopped(velocity, limits.theta_stopped_vel, limits.trans_stopped_vel):
-            return checked(
-                decelerated(velocity, limits.accelerations, period), why_not, "Stopping cmd in collision"
-            )
+            return checked(decelerated(velocity, limits.accelerations, period), why_not, "Stopping cmd in collision")
         self.rotating = True
         most, least = limits.max_vel_theta, limits.min_vel_theta
         speed = min(most, max(least, abs(turn)))

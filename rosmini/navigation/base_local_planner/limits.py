@@ -17,9 +17,7 @@ class LocalPlannerLimits(Parameters):
     max_vel_trans: float = parameter(0.55, "the highest speed", unit="m/s", minimum=0.0)
     min_vel_trans: float = parameter(0.1, "the minimum translational speed", unit="m/s", minimum=0.0)
     max_vel_x: float = parameter(0.55, "the highest velocity ahead", unit="m/s")
-    min_vel_x: float = parameter(
-        0.0, "the lowest velocity ahead; negative values allow reversing", unit="m/s"
-    )
+    min_vel_x: float = parameter(0.0, "the lowest velocity ahead; negative values allow reversing", unit="m/s")
     max_vel_y: float = parameter(0.1, "the highest velocity to the left", unit="m/s")
     min_vel_y: float = parameter(-0.1, "the lowest velocity to the left; negative: to the right", unit="m/s")
     max_vel_theta: float = parameter(1.0, "the fastest turn", unit="rad/s", minimum=0.0)
@@ -32,9 +30,7 @@ class LocalPlannerLimits(Parameters):
     xy_goal_tolerance: float = parameter(0.1, "tolerance of the position at the goal", unit="m")
     yaw_goal_tolerance: float = parameter(0.1, "tolerance of the heading at the goal", unit="rad")
     trans_stopped_vel: float = parameter(0.1, "the robot counts as stopped up to this speed", unit="m/s")
-    theta_stopped_vel: float = parameter(
-        0.1, "the robot counts as stopped up to this turning speed", unit="rad/s"
-    )
+    theta_stopped_vel: float = parameter(0.1, "the robot counts as stopped up to this turning speed", unit="rad/s")
 
     @property
     def accelerations(self) -> NDArray[np.float64]:

@@ -22,11 +22,7 @@ INSCRIBED = 253
 
 
 def wavefront(
-    costs: NDArray[np.uint8],
-    within: NDArray[np.uint8],
-    distances: Distances,
-    queue: NDArray[np.int32],
-    count: int,
+    costs: NDArray[np.uint8], within: NDArray[np.uint8], distances: Distances, queue: NDArray[np.int32], count: int
 ) -> None:
     """Spread distances (h, w) [cells] from the first `count` cell indices in `queue` (h w), which have distance 0.
 
@@ -85,9 +81,7 @@ def densified(points: Floats, resolution: float) -> Floats:
         return points
     steps = np.diff(points, axis=0)
     squares = steps[:, 0] ** 2 + steps[:, 1] ** 2
-    parts = np.where(squares > resolution * resolution, np.ceil(np.sqrt(squares) / resolution), 1).astype(
-        np.int64
-    )
+    parts = np.where(squares > resolution * resolution, np.ceil(np.sqrt(squares) / resolution), 1).astype(np.int64)
     if int(parts.max()) == 1:
         return points
     starts = np.repeat(np.arange(len(parts)), parts)

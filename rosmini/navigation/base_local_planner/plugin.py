@@ -41,14 +41,7 @@ MISSPELT = {"acc_limit_x": "acc_lim_x", "acc_limit_y": "acc_lim_y", "acc_limit_t
 
 NOT_READ = (
     *(each.name for each in fields(LocalPlannerLimits)),
-    *(
-        "forward_point_distance",
-        "scaling_speed",
-        "max_scaling_factor",
-        "vy_samples",
-        "vth_samples",
-        "use_dwa",
-    ),
+    *("forward_point_distance", "scaling_speed", "max_scaling_factor", "vy_samples", "vth_samples", "use_dwa"),
     *("twirling_scale", "oscillation_reset_angle", "publish_traj_pc", "cheat_factor", "penalize_negative_x"),
     *("max_trans_vel", "min_trans_vel", "max_rot_vel", "min_rot_vel", "rot_stopped_vel", "acc_limit_trans"),
 )
@@ -94,9 +87,7 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
         self.following = Following(buffer, costmap)
         dynamic = {each.name: getattr(settings, each.name) for each in fields(TrajectoryPlannerParameters)}
         self.planner = TrajectoryPlanner(
-            TrajectoryPlannerParameters(**dynamic),
-            sim_period(self.node, label),
-            meter_scoring=settings.meter_scoring,
+            TrajectoryPlannerParameters(**dynamic), sim_period(self.node, label), meter_scoring=settings.meter_scoring
         )
         self.odometry = OdometryHelper(self.node, settings.odom_topic)
         self.latch = LatchedStopRotate(settings.latch_xy_goal_tolerance)
@@ -231,6 +222,4 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
         )
 
     def _why_not(self, pose: Pose, command: Floats) -> str:
-        return self.planner.driven(self.costmap.grid, pose, self.odometry.velocity, command[None, :]).reason(
-            0
-        )
+        return self.planner.driven(self.costmap.grid, pose, self.odometry.velocity, command[None, :]).reason(0)

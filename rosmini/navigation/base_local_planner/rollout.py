@@ -215,9 +215,7 @@ def rollout(
                 else:
                     under = max(under, float(max(cost, int(costs[cell]))))
             if scored[n] < 0 or i == scored[n]:
-                nose = cell_of(
-                    x + shift * cos, y + shift * sin, origin_x, origin_y, resolution, width, height
-                )
+                nose = cell_of(x + shift * cos, y + shift * sin, origin_x, origin_y, resolution, width, height)
                 before = looked_up_distance(front, nose, False, before, n, 1, i, where)
                 beside = looked_up_distance(path, nose, False, beside, n, 2, i, where)
                 off = looked_up_distance(path, cell, True, off, n, 3, i, where)
@@ -229,9 +227,7 @@ def rollout(
         raw[n, 0], raw[n, 1], raw[n, 2], raw[n, 3], raw[n, 4] = under, before, beside, off, ahead
 
 
-def cell_of(
-    x: float, y: float, origin_x: float, origin_y: float, resolution: float, width: int, height: int
-) -> int:
+def cell_of(x: float, y: float, origin_x: float, origin_y: float, resolution: float, width: int, height: int) -> int:
     """Return the index of the cell that contains a point, row by row, or -1 outside the costmap."""
     if x < origin_x or y < origin_y:
         return -1

@@ -140,8 +140,7 @@ class Sampling:
         fast = speeds - TOLERANCE > limits.max_vel_trans
         steps = np.ceil(
             np.maximum(
-                speeds * self.sim_time / self.sim_granularity,
-                turns * self.sim_time / self.angular_sim_granularity,
+                speeds * self.sim_time / self.sim_granularity, turns * self.sim_time / self.angular_sim_granularity
             )
         )
         return np.where(slow | fast, 0, steps).astype(np.int64)

@@ -49,15 +49,11 @@ class TrajectoryPlannerParameters(Parameters):
     max_vel_x: float = parameter(0.55, "the highest velocity ahead", unit="m/s", minimum=0.0, maximum=20.0)
     min_vel_x: float = parameter(0.0, "the lowest velocity ahead", unit="m/s", minimum=0.0, maximum=20.0)
     max_vel_theta: float = parameter(1.0, "the fastest turn", unit="rad/s", minimum=0.0, maximum=20.0)
-    min_vel_theta: float = parameter(
-        -1.0, "the fastest turn to the right", unit="rad/s", minimum=-20.0, maximum=0.0
-    )
+    min_vel_theta: float = parameter(-1.0, "the fastest turn to the right", unit="rad/s", minimum=-20.0, maximum=0.0)
     min_in_place_vel_theta: float = parameter(
         0.4, "the slowest turn on the spot", unit="rad/s", minimum=0.0, maximum=20.0
     )
-    sim_time: float = parameter(
-        1.7, "the duration of simulated trajectories", unit="s", minimum=0.0, maximum=10.0
-    )
+    sim_time: float = parameter(1.7, "the duration of simulated trajectories", unit="s", minimum=0.0, maximum=10.0)
     sim_granularity: float = parameter(
         0.025, "distance between two points of a trajectory", unit="m", minimum=0.0, maximum=5.0
     )
@@ -65,28 +61,16 @@ class TrajectoryPlannerParameters(Parameters):
         0.025, "angle between the headings of two points", unit="rad", minimum=0.0, maximum=math.pi / 2
     )
     path_distance_bias: float = parameter(0.6, "weight of the distance to the plan", minimum=0.0, maximum=5.0)
-    goal_distance_bias: float = parameter(
-        0.8, "weight of the distance to the local goal", minimum=0.0, maximum=5.0
-    )
-    occdist_scale: float = parameter(
-        0.01, "weight of the costs under the footprint", minimum=0.0, maximum=5.0
-    )
+    goal_distance_bias: float = parameter(0.8, "weight of the distance to the local goal", minimum=0.0, maximum=5.0)
+    occdist_scale: float = parameter(0.01, "weight of the costs under the footprint", minimum=0.0, maximum=5.0)
     oscillation_reset_dist: float = parameter(
-        0.05,
-        "distance after which the robot may turn in the other direction again",
-        unit="m",
-        minimum=0.0,
-        maximum=5.0,
+        0.05, "distance after which the robot may turn in the other direction again", unit="m", minimum=0.0, maximum=5.0
     )
     escape_reset_dist: float = parameter(
         0.1, "distance after which the robot counts as having escaped", unit="m", minimum=0.0, maximum=5.0
     )
     escape_reset_theta: float = parameter(
-        math.pi / 4,
-        "turn after which the robot counts as having escaped",
-        unit="rad",
-        minimum=0.0,
-        maximum=5.0,
+        math.pi / 4, "turn after which the robot counts as having escaped", unit="rad", minimum=0.0, maximum=5.0
     )
     vx_samples: int = parameter(20, "number of forward velocities to sample", minimum=1, maximum=300)
     vtheta_samples: int = parameter(20, "number of turning speeds to sample", minimum=1, maximum=300)
@@ -143,11 +127,7 @@ class TrajectoryPlanner:
     """Chooses velocities; call `reconfigure` to change the parameters between two cycles."""
 
     def __init__(
-        self,
-        parameters: TrajectoryPlannerParameters,
-        sim_period: float = 0.05,
-        *,
-        meter_scoring: bool = False,
+        self, parameters: TrajectoryPlannerParameters, sim_period: float = 0.05, *, meter_scoring: bool = False
     ) -> None:
         self.sim_period = sim_period
         self.meter_scoring = meter_scoring
@@ -257,11 +237,7 @@ class TrajectoryPlanner:
         for i, turn in enumerate(turns, start=ahead):
             if not samples.accepted[i] or -step <= turn <= step:
                 continue
-            if (
-                best is not None
-                and samples.totals[i] > samples.totals[best]
-                and samples.commands[best, 1] == 0
-            ):
+            if best is not None and samples.totals[i] > samples.totals[best] and samples.commands[best, 1] == 0:
                 continue
             distance = self._distance_ahead(grid, samples.trajectory(i)[-1])
             allowed = not (self.turning.stuck_left if turn < 0 else self.turning.stuck_right)
@@ -330,9 +306,7 @@ class TrajectoryPlanner:
         scored = self._scored_points(steps)
         motion = (np.tile(velocity, (count, 1)), velocities, p.accelerations)
         grids = (self.path, self.goal, self.goal)
-        found = roll_out(
-            grid, grids, pose, motion, p.sim_time, steps, self.footprint, np.ones(count), 0.0, scored
-        )
+        found = roll_out(grid, grids, pose, motion, p.sim_time, steps, self.footprint, np.ones(count), 0.0, scored)
         raw, where = np.zeros((count, 4)), np.full((count, 4), -1)
         raw[:, :3], where[:, :3] = found.raw[:, [0, 3, 4]], found.where[:, [0, 3, 4]]
         if p.simple_attractor:
@@ -341,22 +315,10 @@ class TrajectoryPlanner:
             raw[:, 3] = self._headings(grid, found.points, steps, scored)
         bias = grid.resolution if self.meter_scoring else 1.0
         heading = HEADING_SCALE if p.heading_scoring else 0.0
-        scales = np.array(
-            [p.occdist_scale, p.path_distance_bias * bias, p.goal_distance_bias * bias, heading]
-        )
+        scales = np.array([p.occdist_scale, p.path_distance_bias * bias, p.goal_distance_bias * bias, heading])
         totals, rejected_by = _totals(raw, where, scales)
         return Samples(
-            CRITICS,
-            scales,
-            velocities,
-            velocities,
-            found.points,
-            steps,
-            raw,
-            where,
-            totals,
-            rejected_by,
-            pose=pose,
+            CRITICS, scales, velocities, velocities, found.points, steps, raw, where, totals, rejected_by, pose=pose
         )
 
     def _scored_points(self, steps: Ints) -> Ints:
@@ -393,9 +355,7 @@ class TrajectoryPlanner:
     def _seen_from(self, grid: Costmap2D, cell: tuple[int, int]) -> tuple[float, float] | None:
         for x, y in self.plan[::-1, :2]:
             other = grid.world_to_map(x, y)
-            if other is not None and all(
-                grid.costs[my, mx] < INSCRIBED for mx, my in line_cells(*cell, *other)
-            ):
+            if other is not None and all(grid.costs[my, mx] < INSCRIBED for mx, my in line_cells(*cell, *other)):
                 return grid.map_to_world(*other)
         return None
 

@@ -9,13 +9,7 @@ from typing import Any
 from rosmini.core.parameters import Parameters, parameter
 from rosmini.core.time import Time
 from rosmini.navigation.base_local_planner.costmap_model import footprint_cost
-from rosmini.navigation.nav_core import (
-    BaseGlobalPlanner,
-    GoalBlocked,
-    PlanningFailure,
-    planar_pose,
-    pose_stamped,
-)
+from rosmini.navigation.nav_core import BaseGlobalPlanner, GoalBlocked, PlanningFailure, planar_pose, pose_stamped
 
 from .carrot import nearest_legal_pose
 
@@ -55,9 +49,7 @@ class CarrotPlanner(BaseGlobalPlanner, plugin="carrot_planner/CarrotPlanner"):
         begin, end = planar_pose(start), planar_pose(goal)
         footprint = self.costmap.footprint
         target = nearest_legal_pose(
-            begin,
-            end,
-            lambda pose: len(footprint) > 2 and footprint_cost(self.costmap.grid, pose, footprint) >= 0,
+            begin, end, lambda pose: len(footprint) > 2 and footprint_cost(self.costmap.grid, pose, footprint) >= 0
         )
         if target is None:
             text = "The carrot planner could not find a valid plan for this goal"

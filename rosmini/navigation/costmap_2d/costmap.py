@@ -76,18 +76,14 @@ class Costmap2D:
                 f"{MAX_CELLS:,} cells; use a coarser resolution or a smaller window"
             )
         if not all(map(math.isfinite, origin)):
-            raise CostmapError(
-                f"the origin of a costmap is {origin}: it must be two finite numbers, in metres"
-            )
+            raise CostmapError(f"the origin of a costmap is {origin}: it must be two finite numbers, in metres")
         self.costs: Costs = np.full((height, width), default, dtype=np.uint8)
         self.resolution = float(resolution)
         self.origin = (float(origin[0]), float(origin[1]))
         self.default = default
 
     @classmethod
-    def of(
-        cls, costs: ArrayLike, resolution: float = 1.0, origin: tuple[float, float] = (0.0, 0.0)
-    ) -> Costmap2D:
+    def of(cls, costs: ArrayLike, resolution: float = 1.0, origin: tuple[float, float] = (0.0, 0.0)) -> Costmap2D:
         """Create a costmap from a copy of these costs (h, w)."""
         array = np.array(costs, dtype=np.uint8, order="C")
         if array.ndim != 2:
@@ -136,10 +132,7 @@ class Costmap2D:
 
     def world_to_map_no_bounds(self, x: float, y: float) -> tuple[int, int]:
         """Return the cell (mx, my) that contains a point [m], as if the grid continued in all directions."""
-        return (
-            math.floor((x - self.origin[0]) / self.resolution),
-            math.floor((y - self.origin[1]) / self.resolution),
-        )
+        return (math.floor((x - self.origin[0]) / self.resolution), math.floor((y - self.origin[1]) / self.resolution))
 
     def world_to_map_clamped(self, x: float, y: float) -> tuple[int, int]:
         """Return the cell (mx, my) that contains a point [m], or the nearest cell of the grid."""
@@ -148,17 +141,12 @@ class Costmap2D:
 
     def map_to_world(self, mx: float, my: float) -> tuple[float, float]:
         """Return the centre of a cell [m]."""
-        return (
-            self.origin[0] + (mx + 0.5) * self.resolution,
-            self.origin[1] + (my + 0.5) * self.resolution,
-        )
+        return (self.origin[0] + (mx + 0.5) * self.resolution, self.origin[1] + (my + 0.5) * self.resolution)
 
     def cost(self, mx: int, my: int) -> int:
         """Return the cost of a cell. Raises `IndexError` if it is outside the grid."""
         if not (0 <= mx < self.width and 0 <= my < self.height):
-            raise IndexError(
-                f"the cell ({mx}, {my}) is outside a costmap of {self.width} x {self.height} cells"
-            )
+            raise IndexError(f"the cell ({mx}, {my}) is outside a costmap of {self.width} x {self.height} cells")
         return int(self.costs[my, mx])
 
     def move_origin(self, x: float, y: float) -> tuple[int, int]:

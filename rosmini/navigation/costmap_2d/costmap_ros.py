@@ -59,9 +59,7 @@ class CellCosts(dict[str, int | None]):
     As text, one line describes the cell and one line each layer.
     """
 
-    def __init__(
-        self, grid: Costmap2D, mx: int, my: int, explanations: Mapping[str, tuple[int | None, str]]
-    ) -> None:
+    def __init__(self, grid: Costmap2D, mx: int, my: int, explanations: Mapping[str, tuple[int | None, str]]) -> None:
         super().__init__({name: cost for name, (cost, _) in explanations.items()})
         self.cost = grid.cost(mx, my)
         """The cell's cost in the master grid."""
@@ -71,9 +69,7 @@ class CellCosts(dict[str, int | None]):
 
     def __str__(self) -> str:
         meaning = MEANINGS.get(self.cost, "near something")
-        lines = [
-            f"cell {self.cell} at ({self.point[0]:.2f}, {self.point[1]:.2f}) m costs {self.cost}: {meaning}"
-        ]
+        lines = [f"cell {self.cell} at ({self.point[0]:.2f}, {self.point[1]:.2f}) m costs {self.cost}: {meaning}"]
         for name, cost in self.items():
             text = self._texts[name]
             shown = "nothing" if cost is None else str(cost)
@@ -165,9 +161,7 @@ class Costmap2DROS:
             inherit(self.node, self.namespace, entry.name, entry.type)
             layer = Layer.create(entry.type)
             self.layered.add(layer)
-            layer.initialize(
-                self.layered, entry.name, f"{self.namespace}{entry.name}/", self.node, self.buffer
-            )
+            layer.initialize(self.layered, entry.name, f"{self.namespace}{entry.name}/", self.node, self.buffer)
 
     def _publish_footprint(self) -> None:
         """Subscribe to footprints, advertise the placed footprint, and set the footprint given by parameters."""
@@ -212,9 +206,7 @@ class Costmap2DROS:
 
     def _reconfigure_footprint(self, new: CostmapConfig) -> None:
         """Apply the new footprint or radius if either has changed; otherwise keep one that came from a topic."""
-        if (new.footprint, new.robot_radius) == (self._old.footprint, self._old.robot_radius) and len(
-            self._unpadded
-        ):
+        if (new.footprint, new.robot_radius) == (self._old.footprint, self._old.robot_radius) and len(self._unpadded):
             return
         name = self.node.resolve(self.namespace + "footprint")
         if new.footprint in ("", "[]"):
@@ -294,9 +286,7 @@ class Costmap2DROS:
                 global_frame=self.global_frame,
             ) from error
         moved = compose(found.transform, from_yaw(*planar_pose(pose)))
-        return pose_stamped(
-            self.global_frame, Time.from_nsec(found.stamp_ns), (moved[0], moved[1], rpy(moved)[2])
-        )
+        return pose_stamped(self.global_frame, Time.from_nsec(found.stamp_ns), (moved[0], moved[1], rpy(moved)[2]))
 
     def explain(self, mx: int, my: int) -> CellCosts:
         """Return the cost that each layer gives a cell, or None, with reasons. Raises `IndexError` outside the grid."""

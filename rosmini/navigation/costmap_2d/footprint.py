@@ -81,9 +81,7 @@ def footprint_from_text(text: str, name: str) -> Footprint:
         else:
             raise _parse_error(text, name, f"{word!r} is not a number inside two brackets")
         if not 0 <= depth <= 2:
-            raise _parse_error(
-                text, name, "more ']' than '['" if depth < 0 else "more than two brackets are open"
-            )
+            raise _parse_error(text, name, "more ']' than '['" if depth < 0 else "more than two brackets are open")
     if depth:
         raise _parse_error(text, name, "a ']' is missing")
     return footprint_from_list(points, name)

@@ -38,9 +38,7 @@ def cost_at(distance: float, inscribed_radius: float, cost_scaling_factor: float
         return LETHAL_OBSTACLE
     if distance <= inscribed_radius:
         return INSCRIBED_INFLATED_OBSTACLE
-    return int(
-        (INSCRIBED_INFLATED_OBSTACLE - 1) * math.exp(-cost_scaling_factor * (distance - inscribed_radius))
-    )
+    return int((INSCRIBED_INFLATED_OBSTACLE - 1) * math.exp(-cost_scaling_factor * (distance - inscribed_radius)))
 
 
 def cost_table(radius: int, resolution: float, inscribed_radius: float, cost_scaling_factor: float) -> Costs:
@@ -90,9 +88,7 @@ def inflated(
     return found
 
 
-def inflate(
-    costs: Costs, window: Window, radius: int, table: Costs, *, inflate_unknown: bool = False
-) -> None:
+def inflate(costs: Costs, window: Window, radius: int, table: Costs, *, inflate_unknown: bool = False) -> None:
     """Write the inflation costs into a window of a grid (h, w), in place.
 
     Lethal cells up to `radius` cells outside the window are included. A cell keeps its cost if that is greater; an
@@ -110,9 +106,7 @@ def _inflate_band(costs: Costs, window: Window, radius: int, table: Costs, infla
     """Inflate a band of rows that fits into the cache. No cell becomes lethal, so bands can follow one another."""
     height, width = costs.shape
     x0, y0 = max(window.x0 - radius, 0), max(window.y0 - radius, 0)
-    lethal = (
-        costs[y0 : min(window.yn + radius, height), x0 : min(window.xn + radius, width)] == LETHAL_OBSTACLE
-    )
+    lethal = costs[y0 : min(window.yn + radius, height), x0 : min(window.xn + radius, width)] == LETHAL_OBSTACLE
     if not lethal.any():
         return
     inner = np.s_[window.y0 - y0 : window.yn - y0, window.x0 - x0 : window.xn - x0]

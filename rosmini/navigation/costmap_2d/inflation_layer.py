@@ -45,9 +45,7 @@ class InflationLayer(Layer, plugin="costmap_2d::InflationLayer"):
         """Recompute the table of costs by distance."""
         resolution = self.layered.grid.resolution
         self._cells = cell_distance(self.radius, resolution)
-        self._table = cost_table(
-            self._cells, resolution, self.layered.inscribed_radius, self.cost_scaling_factor
-        )
+        self._table = cost_table(self._cells, resolution, self.layered.inscribed_radius, self.cost_scaling_factor)
         self._needs_full_update = True
 
     def match_size(self) -> None:
@@ -90,7 +88,4 @@ class InflationLayer(Layer, plugin="costmap_2d::InflationLayer"):
             return cost, "an obstacle"
         if distance <= inscribed:
             return cost, f"{text}, within the inscribed radius of {inscribed:.2f} m"
-        return (
-            cost,
-            f"{text}: 252 exp(-{self.cost_scaling_factor:g} ({distance:.3f} - {inscribed:.3f})) = {cost}",
-        )
+        return (cost, f"{text}: 252 exp(-{self.cost_scaling_factor:g} ({distance:.3f} - {inscribed:.3f})) = {cost}")

@@ -130,17 +130,9 @@ class Layer(Plugin, ABC):
     is_current = True
     """True if the layer's data is recent enough for safe driving."""
 
-    def initialize(
-        self, layered: LayeredCostmap, name: str, namespace: str, node: Node, buffer: Buffer
-    ) -> None:
+    def initialize(self, layered: LayeredCostmap, name: str, namespace: str, node: Node, buffer: Buffer) -> None:
         """Attach the layer to its costmap; called once."""
-        self.layered, self.name, self.namespace, self.node, self.buffer = (
-            layered,
-            name,
-            namespace,
-            node,
-            buffer,
-        )
+        self.layered, self.name, self.namespace, self.node, self.buffer = (layered, name, namespace, node, buffer)
         self.on_initialize()
 
     def on_initialize(self) -> None:
@@ -257,7 +249,4 @@ class CostmapLayer(Layer):
         cost = self.grid.cost(*cell)
         if cost == NO_INFORMATION:
             return None, "unknown"
-        return (
-            cost,
-            "free" if cost == FREE_SPACE else "an obstacle" if cost == LETHAL_OBSTACLE else f"cost {cost}",
-        )
+        return (cost, "free" if cost == FREE_SPACE else "an obstacle" if cost == LETHAL_OBSTACLE else f"cost {cost}")

@@ -79,8 +79,7 @@ class VoxelCloud:
     def __init__(self, node: Node) -> None:
         kind = message_class("sensor_msgs/PointCloud")
         self._publishers = [
-            node.publisher(topic, kind, queue_size=2)
-            for topic in ("voxel_marked_cloud", "voxel_unknown_cloud")
+            node.publisher(topic, kind, queue_size=2) for topic in ("voxel_marked_cloud", "voxel_unknown_cloud")
         ]
         node.subscriber("voxel_grid", message_class("costmap_2d/VoxelGrid"), self._show, queue_size=1)
 

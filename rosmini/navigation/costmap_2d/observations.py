@@ -40,12 +40,7 @@ class ObservationBuffer:
     """Stores the observations of one source: the newest one, or those of the last `persistence_ns`."""
 
     def __init__(
-        self,
-        *,
-        persistence_ns: int = 0,
-        expected_ns: int = 0,
-        min_height: float = 0.0,
-        max_height: float = 2.0,
+        self, *, persistence_ns: int = 0, expected_ns: int = 0, min_height: float = 0.0, max_height: float = 2.0
     ) -> None:
         self.persistence_ns = persistence_ns
         self.expected_ns = expected_ns
@@ -105,9 +100,7 @@ def scan_cloud(scan: Any, *, inf_is_valid: bool = False) -> Floats:
     ranges = np.asarray(scan.ranges, dtype=np.float64)
     first, step = float(scan.angle_min), float(scan.angle_increment)
     if not (np.isfinite(first) and np.isfinite(step)):
-        raise ScanError(
-            f"angle_min is {first} and angle_increment {step}: both must be finite numbers, in radians"
-        )
+        raise ScanError(f"angle_min is {first} and angle_increment {step}: both must be finite numbers, in radians")
     if inf_is_valid:
         ranges = np.where(np.isposinf(ranges), scan.range_max - EPSILON, ranges)
     with np.errstate(invalid="ignore"):

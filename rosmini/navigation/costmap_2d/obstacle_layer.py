@@ -43,9 +43,7 @@ class ObstacleLayer(CostmapLayer, plugin="costmap_2d::ObstacleLayer"):
         self.node.loginfo(f"    Subscribed to Topics: {settings.observation_sources}")
         for name in settings.observation_sources.split():
             self.sources.append(
-                ObservationSource(
-                    self.node, self.buffer, f"{self.namespace}{name}/", name, self.layered.global_frame
-                )
+                ObservationSource(self.node, self.buffer, f"{self.namespace}{name}/", name, self.layered.global_frame)
             )
         self._server = Server(self.node, self.config, self._reconfigure, namespace=self.namespace)
 

@@ -26,9 +26,7 @@ class CostmapConfig(Parameters):
 
     dynamic = True
 
-    transform_tolerance: float = parameter(
-        0.3, "how old the robot's pose may be", unit="s", minimum=0.0, maximum=10.0
-    )
+    transform_tolerance: float = parameter(0.3, "how old the robot's pose may be", unit="s", minimum=0.0, maximum=10.0)
     update_frequency: float = parameter(
         5.0, "rate at which the costs are computed; 0 for never", unit="Hz", minimum=0.0, maximum=100.0
     )
@@ -65,14 +63,10 @@ class CostmapParameters(CostmapConfig):
     global_frame: str = parameter("map", "the frame of the costs")
     robot_base_frame: str = parameter("base_link", "the robot's frame")
     rolling_window: bool = parameter(False, "whether the window moves with the robot")
-    track_unknown_space: bool = parameter(
-        False, "whether cells that no layer knows are unknown (255), not free"
-    )
+    track_unknown_space: bool = parameter(False, "whether cells that no layer knows are unknown (255), not free")
     always_send_full_costmap: bool = parameter(False, "publish all costs each time, not only changes")
     footprint_topic: str = parameter("footprint", "the topic on which another footprint may arrive")
-    published_footprint_topic: str = parameter(
-        "footprint", "the topic on which the robot's footprint is published"
-    )
+    published_footprint_topic: str = parameter("footprint", "the topic on which the robot's footprint is published")
 
     def others(self) -> Iterable[str]:
         """The namespaces of the layers."""
@@ -95,15 +89,11 @@ class StaticParameters(LayerConfig):
     map_topic: str = parameter("map", "where the map comes from")
     first_map_only: bool = parameter(False, "use only the first map")
     subscribe_to_updates: bool = parameter(False, "also subscribe to the map's topic with _updates")
-    track_unknown_space: bool = parameter(
-        True, "whether an unknown cell of the map is unknown (255), not free"
-    )
+    track_unknown_space: bool = parameter(True, "whether an unknown cell of the map is unknown (255), not free")
     use_maximum: bool = parameter(False, "keep a greater cost of the layers below")
     lethal_cost_threshold: int = parameter(100, "a cell of at least this value is an obstacle")
     unknown_cost_value: int = parameter(-1, "the value of an unknown cell")
-    trinary_costmap: bool = parameter(
-        True, "treat values below the threshold as free instead of scaling them"
-    )
+    trinary_costmap: bool = parameter(True, "treat values below the threshold as free instead of scaling them")
 
 
 @dataclass(frozen=True)
@@ -132,10 +122,7 @@ class ObstacleConfig(LayerConfig):
         2.0, "points above this height are not obstacles", unit="m", minimum=0.0, maximum=50.0
     )
     combination_method: int = parameter(
-        MAXIMUM,
-        "0 overwrites the layers below, 1 keeps the greater cost, 99 does nothing",
-        minimum=0,
-        maximum=99,
+        MAXIMUM, "0 overwrites the layers below, 1 keeps the greater cost, 99 does nothing", minimum=0, maximum=99
     )
 
 
@@ -173,9 +160,7 @@ class VoxelConfig(ObstacleConfig):
     unknown_threshold: int = parameter(
         15, "a column with at most this many unknown voxels is known", minimum=0, maximum=16
     )
-    mark_threshold: int = parameter(
-        0, "a column with at most this many marked voxels is free", minimum=0, maximum=16
-    )
+    mark_threshold: int = parameter(0, "a column with at most this many marked voxels is free", minimum=0, maximum=16)
 
 
 @dataclass(frozen=True)
@@ -191,9 +176,7 @@ class SourceParameters(Parameters):
 
     topic: str | None = parameter(None, "the topic of the source; by default its name")
     sensor_frame: str = parameter("", "the frame of the sensor; by default that of its messages")
-    observation_persistence: float = parameter(
-        0.0, "how long an observation is kept; 0 keeps the newest", unit="s"
-    )
+    observation_persistence: float = parameter(0.0, "how long an observation is kept; 0 keeps the newest", unit="s")
     expected_update_rate: float = parameter(
         0.0, "time without a message after which the costmap is out of date; 0 for never", unit="s"
     )
@@ -206,9 +189,7 @@ class SourceParameters(Parameters):
     clearing: bool = parameter(False, "whether cells along its rays are cleared")
     marking: bool = parameter(True, "whether its points are marked as obstacles")
     obstacle_range: float | None = parameter(
-        None,
-        "points up to this distance are obstacles; by default that of a parent namespace, or 2.5",
-        unit="m",
+        None, "points up to this distance are obstacles; by default that of a parent namespace, or 2.5", unit="m"
     )
     raytrace_range: float | None = parameter(
         None, "rays clear up to this distance; by default that of a parent namespace, or 3.0", unit="m"

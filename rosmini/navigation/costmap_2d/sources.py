@@ -48,9 +48,7 @@ class ObservationSource:
         )
         self.observations.updated_ns = node.clock.now_ns()
         if settings.inf_is_valid and settings.data_type != "LaserScan":
-            node.logwarn(
-                f"obstacle_layer: inf_is_valid option is not applicable to {settings.data_type} observations."
-            )
+            node.logwarn(f"obstacle_layer: inf_is_valid option is not applicable to {settings.data_type} observations.")
         self._project = (
             partial(scan_cloud, inf_is_valid=True)
             if settings.inf_is_valid and settings.data_type == "LaserScan"
@@ -74,10 +72,7 @@ class ObservationSource:
             failed=self._on_drop,
         )
         self._subscriber = self.node.subscriber(
-            self.topic,
-            message_class(f"sensor_msgs/{self.settings.data_type}"),
-            self._filter.add,
-            queue_size=QUEUE_SIZE,
+            self.topic, message_class(f"sensor_msgs/{self.settings.data_type}"), self._filter.add, queue_size=QUEUE_SIZE
         )
 
     def deactivate(self) -> None:
@@ -106,11 +101,7 @@ class ObservationSource:
             points = self._project(message)
             cloud_transform = self.buffer.tree.lookup(self.global_frame, frame, stamp).transform
             sensor = self.settings.sensor_frame.lstrip("/")
-            origin = (
-                self.buffer.tree.lookup(self.global_frame, sensor, stamp).transform
-                if sensor
-                else cloud_transform
-            )
+            origin = self.buffer.tree.lookup(self.global_frame, sensor, stamp).transform if sensor else cloud_transform
         except TransformException as error:
             self.node.logerr(
                 f"TF Exception that should never happen for sensor frame: {self.settings.sensor_frame}, cloud frame: "
@@ -122,11 +113,7 @@ class ObservationSource:
             return
         self.observations.add(
             Observation(
-                origin[:3],
-                transform_points(cloud_transform, points),
-                stamp,
-                self.obstacle_range,
-                self.raytrace_range,
+                origin[:3], transform_points(cloud_transform, points), stamp, self.obstacle_range, self.raytrace_range
             ),
             self.node.clock.now_ns(),
         )

@@ -75,9 +75,7 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
         if self._settings.subscribe_to_updates:
             node.loginfo("Subscribing to updates")
             kind = message_class("map_msgs/OccupancyGridUpdate")
-            self._subscribers.append(
-                node.subscriber(topic + "_updates", kind, self._on_update, queue_size=10)
-            )
+            self._subscribers.append(node.subscriber(topic + "_updates", kind, self._on_update, queue_size=10))
 
     def _reconfigure(self, config: Any, _: int) -> Any:
         if config["enabled"] != self.is_enabled:

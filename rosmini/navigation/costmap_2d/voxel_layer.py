@@ -125,10 +125,7 @@ class VoxelLayer(ObstacleLayer, plugin="costmap_2d::VoxelLayer"):
         if not heights:
             return cost, words
         low, high = (self.origin_z + z * self.z_resolution for z in (heights[0], heights[-1] + 1))
-        return (
-            cost,
-            f"{words}, {len(heights)} of {self.size_z} voxels marked, from {low:.2f} m to {high:.2f} m",
-        )
+        return (cost, f"{words}, {len(heights)} of {self.size_z} voxels marked, from {low:.2f} m to {high:.2f} m")
 
     def _message(self) -> Any:
         message = message_class("costmap_2d/VoxelGrid")()

@@ -121,11 +121,7 @@ def clear_voxels(
         if x1 < 0 or y1 < 0 or z1 < 0 or x1 >= width or y1 >= height or z1 >= size_z:
             continue
         dx, dy, dz = abs(x1 - start_x), abs(y1 - start_y), abs(z1 - start_z)
-        step_x, step_y, step_z = (
-            1 if x1 >= start_x else -1,
-            1 if y1 >= start_y else -1,
-            1 if z1 >= start_z else -1,
-        )
+        step_x, step_y, step_z = (1 if x1 >= start_x else -1, 1 if y1 >= start_y else -1, 1 if z1 >= start_z else -1)
         longest = max(dx, dy, dz)
         length = math.sqrt(float(dx * dx + dy * dy + dz * dz))
         last = longest if length <= reach else int(reach / length * longest)
@@ -156,13 +152,5 @@ def compiled_clear_voxels(numba: Any) -> Any:
     types = numba.types
     number, line = types.int64, types.float64[::1]
     return types.UniTuple(number, 4)(
-        types.int64[:, ::1],
-        types.uint8[:, ::1],
-        line,
-        line,
-        types.float64[:, ::1],
-        number,
-        number,
-        number,
-        number,
+        types.int64[:, ::1], types.uint8[:, ::1], line, line, types.float64[:, ::1], number, number, number, number
     )

@@ -30,9 +30,7 @@ class DWAPlannerParameters(LocalPlannerLimits):
     dynamic = True
 
     sim_time: float = parameter(1.7, "the duration of simulated trajectories", unit="s", minimum=0.0)
-    sim_granularity: float = parameter(
-        0.025, "distance between two points of a trajectory", unit="m", minimum=0.0
-    )
+    sim_granularity: float = parameter(0.025, "distance between two points of a trajectory", unit="m", minimum=0.0)
     angular_sim_granularity: float = parameter(
         0.1, "angle between the headings of two points of a trajectory", unit="rad", minimum=0.0
     )
@@ -73,9 +71,7 @@ class DWAPlannerParameters(LocalPlannerLimits):
 class DWAPlanner:
     """Chooses velocities; call `reconfigure` to change the parameters between two cycles."""
 
-    def __init__(
-        self, parameters: DWAPlannerParameters, sim_period: float = 0.05, cheat_factor: float = 1.0
-    ) -> None:
+    def __init__(self, parameters: DWAPlannerParameters, sim_period: float = 0.05, cheat_factor: float = 1.0) -> None:
         self.sim_period = sim_period
         self.cheat_factor = cheat_factor
         self.oscillation = Oscillation()
@@ -118,9 +114,7 @@ class DWAPlanner:
         """Return the critics' weights (k); distances are in cells but weighed in metres."""
         p = self.parameters
         path, goal = resolution * p.path_distance_bias, resolution * p.goal_distance_bias
-        return np.array(
-            [1.0, p.occdist_scale, goal, path if self._nose else 0.0, path, goal, p.twirling_scale]
-        )
+        return np.array([1.0, p.occdist_scale, goal, path if self._nose else 0.0, path, goal, p.twirling_scale])
 
     def find_best(self, grid: Costmap2D, pose: Pose, velocity: Floats) -> Samples:
         """Sample around `velocity` (3), score, choose the cheapest, and record it for the oscillation critic."""
@@ -136,9 +130,7 @@ class DWAPlanner:
 
     def driven(self, grid: Costmap2D, pose: Pose, velocity: Floats, velocities: Floats) -> Samples:
         """Simulate and score given velocities (n, 3), starting at `velocity` (3), without recording any."""
-        return self._scored(
-            grid, pose, velocity, velocities, self.sampling.steps(velocities, self.parameters), 0
-        )
+        return self._scored(grid, pose, velocity, velocities, self.sampling.steps(velocities, self.parameters), 0)
 
     def why_not(self, grid: Costmap2D, pose: Pose, velocity: Floats, command: Floats) -> str:
         """Return why a critic rejects a command (3), or an empty text; going back is allowed (`checkTrajectory`)."""
@@ -146,13 +138,7 @@ class DWAPlanner:
         return self.driven(grid, pose, velocity, command[None, :]).reason(0)
 
     def _scored(
-        self,
-        grid: Costmap2D,
-        pose: Pose,
-        velocity: Floats,
-        velocities: Floats,
-        steps: NDArray[np.int64],
-        refused: int,
+        self, grid: Costmap2D, pose: Pose, velocity: Floats, velocities: Floats, steps: NDArray[np.int64], refused: int
     ) -> Samples:
         if self.grids is None:
             raise RuntimeError("there is no plan: call update_plan first")

@@ -63,12 +63,7 @@ class DWAPlannerSettings(DWAPlannerParameters):
     )
     global_frame_id: str = parameter("odom", "not used: clouds are in the costmap's frame")
 
-    allowed = (
-        *RENAMED,
-        *OBSOLETE,
-        *(each.name for each in fields(TrajectoryPlannerParameters)),
-        "meter_scoring",
-    )
+    allowed = (*RENAMED, *OBSOLETE, *(each.name for each in fields(TrajectoryPlannerParameters)), "meter_scoring")
 
 
 class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
@@ -91,9 +86,7 @@ class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
         self.following = Following(buffer, costmap)
         self.planner = DWAPlanner(_dynamic(settings), sim_period(self.node, label), settings.cheat_factor)
         # In ROS this controller has no name, and reads the parameter from the node's private namespace.
-        latch = (
-            bool(self.node.get_param("~latch_xy_goal_tolerance", False)) or settings.latch_xy_goal_tolerance
-        )
+        latch = bool(self.node.get_param("~latch_xy_goal_tolerance", False)) or settings.latch_xy_goal_tolerance
         self.latch = LatchedStopRotate(latch)
         self.odometry = OdometryHelper(self.node, settings.odom_topic)
         self._initial_config: dict[str, Any] | None = None
@@ -102,9 +95,7 @@ class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
     def _warn_of_names(self, label: str) -> None:
         for old, new in RENAMED.items():
             if self.node.has_param(label + old):
-                self.node.logwarn(
-                    f"Parameter {old} is deprecated (and will not load properly). Use {new} instead."
-                )
+                self.node.logwarn(f"Parameter {old} is deprecated (and will not load properly). Use {new} instead.")
         known = {each.name for each in fields(DWAPlannerSettings)}
         others = [each.name for each in fields(TrajectoryPlannerParameters) if each.name not in known]
         ignore(self.node, label, [*others, "meter_scoring"], "it belongs to TrajectoryPlannerROS")
@@ -136,9 +127,7 @@ class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
     def is_goal_reached(self) -> bool:
         """True if the robot has reached the end of the plan and its heading, and has stopped."""
         pose = planar_pose(self.costmap.robot_pose())
-        if not self.latch.is_goal_reached(
-            pose, self.odometry.velocity, self.following.goal(), self.parameters
-        ):
+        if not self.latch.is_goal_reached(pose, self.odometry.velocity, self.following.goal(), self.parameters):
             return False
         self.node.loginfo("Goal reached")
         return True
@@ -185,6 +174,4 @@ class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
 
 
 def _dynamic(settings: DWAPlannerSettings) -> DWAPlannerParameters:
-    return DWAPlannerParameters(
-        **{each.name: getattr(settings, each.name) for each in fields(DWAPlannerParameters)}
-    )
+    return DWAPlannerParameters(**{each.name: getattr(settings, each.name) for each in fields(DWAPlannerParameters)})

@@ -28,9 +28,7 @@ class Weights:
         return distance_cost - self.gain * frontier.size * resolution
 
 
-def ranked(
-    frontiers: Sequence[Frontier], weights: Weights, resolution: float
-) -> list[tuple[float, Frontier]]:
+def ranked(frontiers: Sequence[Frontier], weights: Weights, resolution: float) -> list[tuple[float, Frontier]]:
     """Return the cost and the frontier of each one with at least the minimum size, cheapest first."""
     large = [one for one in frontiers if one.size * resolution >= weights.min_size]
     return sorted(((weights.cost(one, resolution), one) for one in large), key=lambda pair: pair[0])

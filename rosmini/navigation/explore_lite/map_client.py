@@ -10,12 +10,7 @@ import numpy as np
 from rosmini.core.tf import TransformException, TransformListener
 from rosmini.core.time import Time
 from rosmini.msgs import message_class
-from rosmini.navigation.costmap_2d import (
-    INSCRIBED_INFLATED_OBSTACLE,
-    LETHAL_OBSTACLE,
-    NO_INFORMATION,
-    Costmap2D,
-)
+from rosmini.navigation.costmap_2d import INSCRIBED_INFLATED_OBSTACLE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D
 from rosmini.navigation.costmap_2d.costmap import Costs
 from rosmini.navigation.costmap_2d.layer import Window
 from rosmini.navigation.nav_core import TransformMissing
@@ -70,8 +65,7 @@ class MapClient:
         node.loginfo(f"Waiting for costmap to become available, topic: {topic}")
         while not self.global_frame and not node.wait(self._waiter, WARN_PERIOD):
             node.logwarn(
-                f"Still waiting for the map on {node.resolve(topic)}: "
-                f"{node.master.who_publishes(node.resolve(topic))}"
+                f"Still waiting for the map on {node.resolve(topic)}: {node.master.who_publishes(node.resolve(topic))}"
             )
             self._waiter = node.waiter(f"the map on {node.resolve(topic)}")
 

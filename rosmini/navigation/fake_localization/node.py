@@ -38,9 +38,7 @@ class FakeLocalizationParameters(Parameters):
     global_frame_id: str = parameter("map", "the frame of the map")
     delta_x: float = parameter(0.0, "x of the map's origin in the frame of the true poses", unit="m")
     delta_y: float = parameter(0.0, "y of the map's origin in the frame of the true poses", unit="m")
-    delta_yaw: float = parameter(
-        0.0, "heading of the map's origin in the frame of the true poses", unit="rad"
-    )
+    delta_yaw: float = parameter(0.0, "heading of the map's origin in the frame of the true poses", unit="rad")
     transform_tolerance: float = parameter(
         0.1, "how far the transform from map to odom is dated in the future", unit="s"
     )

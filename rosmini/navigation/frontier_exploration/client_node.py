@@ -34,9 +34,7 @@ class ExploreClient:
         self._point = message_class("geometry_msgs/Point")
         self._markers = node.publisher("exploration_polygon_marker", self._marker, queue_size=10)
         self._markers.expect_nobody()
-        node.subscriber(
-            "/clicked_point", message_class("geometry_msgs/PointStamped"), self._on_click, queue_size=10
-        )
+        node.subscriber("/clicked_point", message_class("geometry_msgs/PointStamped"), self._on_click, queue_size=10)
         node.timer(MARKER_PERIOD, self._show)
         node.loginfo("Please use the 'Point' tool in Rviz to select an exploration boundary.")
 
@@ -72,9 +70,7 @@ class ExploreClient:
         while not self.client.wait_for_server(WARN_PERIOD):
             if self.node.is_shutdown():
                 return
-            self.node.logwarn(
-                "Waiting for the action server explore_server: start frontier_exploration/explore_server"
-            )
+            self.node.logwarn("Waiting for the action server explore_server: start frontier_exploration/explore_server")
         self.node.loginfo(text)
         self.client.send_goal(goal)
 

@@ -61,9 +61,7 @@ class ExploreServerParameters(Parameters):
     frequency: float = parameter(
         0.0, "rate of the search for the next frontier; 0: when the last is reached", unit="Hz"
     )
-    goal_aliasing: float = parameter(
-        0.1, "a goal within half of this distance of the last one is not sent", unit="m"
-    )
+    goal_aliasing: float = parameter(0.1, "a goal within half of this distance of the last one is not sent", unit="m")
 
 
 class ExploreServer:
@@ -135,9 +133,7 @@ class ExploreServer:
                 continue
             except (TransformMissing, TransformException) as error:
                 if (self.node.clock.now_ns() - known_ns) * 1e-9 > POSE_TIMEOUT:
-                    self._fail(
-                        f"Failed exploration: the robot's pose has been unknown for {POSE_TIMEOUT:g} s: {error}"
-                    )
+                    self._fail(f"Failed exploration: the robot's pose has been unknown for {POSE_TIMEOUT:g} s: {error}")
                     return
                 self.node.logwarn(f"Exploration waits for the robot's pose: {error}", throttle=WARN_PERIOD)
                 self.node.sleep(RETRY_PERIOD)
@@ -231,9 +227,7 @@ class ExploreServer:
             with suppress(TransformMissing, TransformException):
                 self._abort_positions.append(planar_pose(self.costmap.robot_pose())[:2])
             x, y = self._last
-            self.node.logwarn(
-                f"Failed to move to ({x:.2f}, {y:.2f}): {self.move_base.get_goal_status_text()}"
-            )
+            self.node.logwarn(f"Failed to move to ({x:.2f}, {y:.2f}): {self.move_base.get_goal_status_text()}")
             for layer in self._boundaries():
                 layer.given_up.points.append(self._last)
 
@@ -246,15 +240,9 @@ class ExploreServer:
             return
         given_up = "".join(layer.given_up_text for layer in self._boundaries())
         last = self._abort_positions[-STUCK_GOALS:]
-        if (
-            given_up
-            and len(last) == STUCK_GOALS
-            and all(math.dist(one, last[-1]) < STUCK_DISTANCE for one in last)
-        ):
+        if given_up and len(last) == STUCK_GOALS and all(math.dist(one, last[-1]) < STUCK_DISTANCE for one in last):
             (x, y), text = last[-1], self.move_base.get_goal_status_text()
-            self._fail(
-                f"Failed exploration: the robot is stuck at ({x:.2f}, {y:.2f}){given_up}. Last: {text}"
-            )
+            self._fail(f"Failed exploration: the robot is stuck at ({x:.2f}, {y:.2f}){given_up}. Last: {text}")
             return
         text = f"Finished exploring room{given_up}"
         self.node.logwarn(text)

@@ -49,14 +49,10 @@ class BoundedExploreParameters(LayerConfig):
     """Parameters of `frontier_exploration::BoundedExploreLayer`."""
 
     explore_clear_space: bool = parameter(
-        True,
-        "whether all cells inside the boundary are unknown initially, so that known space is explored again",
+        True, "whether all cells inside the boundary are unknown initially, so that known space is explored again"
     )
     resize_to_boundary: bool = parameter(True, "whether the costmap gets the size of the boundary")
-    frontier_travel_point: str = parameter(
-        CLOSEST,
-        "the point of a frontier to drive to",
-    )
+    frontier_travel_point: str = parameter(CLOSEST, "the point of a frontier to drive to")
 
 
 def points_in_frame(buffer: Buffer, frame: str, source: str, points: Floats) -> Floats:
@@ -88,9 +84,7 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
         self._is_drawn = False
         self._has_changed = False
         self.match_size()
-        self._cloud = node.publisher(
-            f"{namespace}frontiers", message_class("sensor_msgs/PointCloud2"), queue_size=5
-        )
+        self._cloud = node.publisher(f"{namespace}frontiers", message_class("sensor_msgs/PointCloud2"), queue_size=5)
         self._cloud.expect_nobody()
         for name, kind, handler in (
             ("update_boundary_polygon", "UpdateBoundaryPolygon", self._update_boundary),
@@ -113,9 +107,7 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
         if problem is not None:
             raise self._refusal(problem)
         try:
-            vertices = points_in_frame(
-                self.buffer, self.layered.global_frame, stamped.header.frame_id, vertices
-            )
+            vertices = points_in_frame(self.buffer, self.layered.global_frame, stamped.header.frame_id, vertices)
         except TransformException as error:
             raise self._refusal(
                 f"Couldn't transform from {self.layered.global_frame} to {stamped.header.frame_id}: {error}"
@@ -167,9 +159,7 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
             self._draw(self.boundary)
         self._is_drawn = True
         mine, master = window.view(self.costs), window.view(grid.costs)
-        np.copyto(
-            master, mine, where=(master != LETHAL_OBSTACLE) & ((mine == LETHAL_OBSTACLE) | (mine > master))
-        )
+        np.copyto(master, mine, where=(master != LETHAL_OBSTACLE) & ((mine == LETHAL_OBSTACLE) | (mine > master)))
 
     def _draw(self, boundary: Floats) -> None:
         """Draw the edges as obstacles; vertices outside the costmap are moved to its edge."""
@@ -198,15 +188,12 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
         try:
             self.frontiers = find_frontiers(self.layered.grid, x, y)
         except IndexError as error:
-            raise self._refusal(
-                f"Robot out of costmap bounds, cannot search for frontiers: {error}"
-            ) from error
+            raise self._refusal(f"Robot out of costmap bounds, cannot search for frontiers: {error}") from error
         # A single cell is noise in the map.
         self.frontiers = [one for one in self.frontiers if one.size > 1]
         resolution = self.layered.grid.resolution
         left = [
-            (self.given_up.count(self._travel_point(one), resolution), one.min_distance, one)
-            for one in self.frontiers
+            (self.given_up.count(self._travel_point(one), resolution), one.min_distance, one) for one in self.frontiers
         ]
         tries, _, chosen = min(left, key=lambda each: each[:2], default=(MAX_FAILURES, 0.0, None))
         if chosen is None or tries >= MAX_FAILURES:
@@ -228,9 +215,7 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
             if self._is_drawn:
                 return
             self.node.sleep(POLL_PERIOD)
-        raise self._refusal(
-            f"no boundary has been drawn within {TIMEOUT:g} s: call update_boundary_polygon first"
-        )
+        raise self._refusal(f"no boundary has been drawn within {TIMEOUT:g} s: call update_boundary_polygon first")
 
     def _travel_point(self, frontier: Frontier) -> tuple[float, float]:
         wanted = self.settings.frontier_travel_point
@@ -239,16 +224,11 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
         if wanted == MIDDLE:
             return frontier.middle
         if wanted != CLOSEST:
-            self.node.logerr(
-                f"Invalid 'frontier_travel_point' parameter {wanted!r}, falling back to 'closest'"
-            )
+            self.node.logerr(f"Invalid 'frontier_travel_point' parameter {wanted!r}, falling back to 'closest'")
         return frontier.initial
 
     def _publish(self, chosen: Frontier) -> None:
-        rows = [
-            (*one.initial, 0.0, CHOSEN_INTENSITY if one is chosen else OTHER_INTENSITY)
-            for one in self.frontiers
-        ]
+        rows = [(*one.initial, 0.0, CHOSEN_INTENSITY if one is chosen else OTHER_INTENSITY) for one in self.frontiers]
         names = ("x", "y", "z", "intensity")
         self._cloud.publish(point_cloud(self.layered.global_frame, self.node.now(), names, rows))
 

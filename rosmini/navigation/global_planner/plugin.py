@@ -124,9 +124,7 @@ class GlobalPlanner(GridPlanner, plugin="global_planner/GlobalPlanner"):
         poses = np.zeros((len(plan), 3))
         poses[:, :2] = [(each.pose.position.x, each.pose.position.y) for each in plan]
         poses[-1, 2] = _yaw(plan[-1])
-        turned = orient(
-            poses, self.config["orientation_mode"], _yaw(start), self.config["orientation_window_size"]
-        )
+        turned = orient(poses, self.config["orientation_mode"], _yaw(start), self.config["orientation_window_size"])
         for each, yaw in zip(plan[:-1], turned[:-1, 2], strict=True):
             q = each.pose.orientation
             q.x, q.y, q.z, q.w = quaternion_from_yaw(float(yaw))

@@ -49,9 +49,7 @@ def first_extent(
             f"a map from xmin {xmin} to xmax {xmax} m and from ymin {ymin} to ymax {ymax} m has no cells: "
             "it starts small and grows; xmin and ymin should be smaller than xmax and ymax"
         )
-    columns, rows = (
-        max(math.ceil(length / delta - 1e-6) // SIDE, 1) for length in (xmax - xmin, ymax - ymin)
-    )
+    columns, rows = (max(math.ceil(length / delta - 1e-6) // SIDE, 1) for length in (xmax - xmin, ymax - ymin))
     left, low = math.floor(xmin / delta + 1e-6), math.floor(ymin / delta + 1e-6)
     most = LARGEST_SIDE // SIDE
     if columns * rows > most * most:

@@ -89,9 +89,7 @@ class SharedMaps:
         """
         block = SIDE * self.resolution
         if not np.isfinite((left, bottom, right, top)).all():
-            raise RosminiError(
-                f"a scan seen from ({left}, {bottom}) to ({right}, {top}) m has no position on a map"
-            )
+            raise RosminiError(f"a scan seen from ({left}, {bottom}) to ({right}, {top}) m has no position on a map")
         x0, y0 = int(np.floor(left / block)) - 1, int(np.floor(bottom / block)) - 1
         x1, y1 = int(np.floor(right / block)) + 2, int(np.floor(top / block)) + 2
         _, rows, columns = self.tables.shape
@@ -107,9 +105,7 @@ class SharedMaps:
                 "for jumps of the odometry, or a maxUrange that is too long"
             )
         if west or south or east or north or not rows:
-            self.tables = np.pad(
-                self.tables, ((0, 0), (south, north), (west, east)), constant_values=EMPTY_PATCH
-            )
+            self.tables = np.pad(self.tables, ((0, 0), (south, north), (west, east)), constant_values=EMPTY_PATCH)
             self.low = ((here_x - west) * SIDE, (here_y - south) * SIDE)
 
     def _add_patches(self, count: int) -> None:
@@ -130,9 +126,7 @@ class SharedMaps:
     def choose(self, indices: NDArray[np.int64]) -> None:
         """Continue with the maps of these particles; duplicates are not copied until they change."""
         self.tables = np.ascontiguousarray(self.tables[indices])
-        self.owners = np.bincount(self.tables[self.tables != EMPTY_PATCH], minlength=len(self.hits)).astype(
-            np.int64
-        )
+        self.owners = np.bincount(self.tables[self.tables != EMPTY_PATCH], minlength=len(self.hits)).astype(np.int64)
 
     def register(self, laser_poses: Floats, ranges: Floats, bearings: Floats, usable: float) -> None:
         """Write a scan into each map, from that particle's laser pose (n, 3).

@@ -87,9 +87,7 @@ class Matcher:
     no_hit: float = -0.5
     """Log-likelihood of a beam without an end nearby, before the division by `lsigma`."""
 
-    def match(
-        self, maps: SharedMaps, laser_poses: Floats, ranges: Floats, bearings: Floats, usable: float
-    ) -> Matched:
+    def match(self, maps: SharedMaps, laser_poses: Floats, ranges: Floats, bearings: Floats, usable: float) -> Matched:
         """Improve the laser pose (n, 3) on each particle's map.
 
         `ranges` (b,) [m] of 0 and above `usable` are ignored.
@@ -101,9 +99,7 @@ class Matcher:
         )
         return Matched(poses, result[:, 0], result[:, 1])
 
-    def score(
-        self, maps: SharedMaps, laser_poses: Floats, ranges: Floats, bearings: Floats, usable: float
-    ) -> Matched:
+    def score(self, maps: SharedMaps, laser_poses: Floats, ranges: Floats, bearings: Floats, usable: float) -> Matched:
         """Score the given poses without improving them."""
         still = replace(self, lstep=0.0, astep=0.0, iterations=0)
         return still.match(maps, laser_poses, ranges, bearings, usable)
@@ -257,8 +253,7 @@ def compiled_match(numba: Any) -> Any:
     record = numba.types.NamedTuple
     number, count, beam, pairs = numba.float64, numba.int64, numba.float64[::1], numba.float64[:, ::1]
     grids = record(
-        (numba.int32[:, :, ::1], numba.float64[:, :, :, ::1], numba.int64[:, ::1], count, count, number),
-        Grids,
+        (numba.int32[:, :, ::1], numba.float64[:, :, :, ::1], numba.int64[:, ::1], count, count, number), Grids
     )
     beams = record((beam, beam, beam, pairs, numba.int64[:, ::1]), Beams)
     rule = record((count, *(number,) * 5, count), Rule)

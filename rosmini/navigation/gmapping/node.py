@@ -56,9 +56,7 @@ class SlamGmapping:
         self.listener = TransformListener(node, self.buffer)
         self.broadcaster = TransformBroadcaster(node)
         grid, numbers = message_class("nav_msgs/OccupancyGrid"), message_class("nav_msgs/MapMetaData")
-        self._entropy = node.publisher(
-            "~entropy", message_class("std_msgs/Float64"), queue_size=1, latch=True
-        )
+        self._entropy = node.publisher("~entropy", message_class("std_msgs/Float64"), queue_size=1, latch=True)
         self._maps = node.publisher("map", grid, queue_size=1, latch=True)
         self._metadata = node.publisher("map_metadata", numbers, queue_size=1, latch=True)
         node.service("dynamic_map", service_class("nav_msgs/GetMap"), self._dynamic_map)
@@ -161,10 +159,7 @@ class SlamGmapping:
         info = grid.info
         info.map_load_time, info.resolution = grid.header.stamp, p.delta
         info.height, info.width = cells.shape
-        info.origin.position.x, info.origin.position.y = (
-            self._extent.column * p.delta,
-            self._extent.row * p.delta,
-        )
+        info.origin.position.x, info.origin.position.y = (self._extent.column * p.delta, self._extent.row * p.delta)
         info.origin.orientation.w = 1.0
         grid.data = cells.ravel()
         self._map = grid

@@ -58,12 +58,8 @@ class GmappingParameters(Parameters):
     stt: float = parameter(0.2, "error of rotation from rotation")
     linearUpdate: float = parameter(1.0, "a scan is processed after this much driving", unit="m")
     angularUpdate: float = parameter(0.5, "a scan is processed after this much turning", unit="rad")
-    temporalUpdate: float = parameter(
-        -1.0, "a scan is processed after this much time; negative: never", unit="s"
-    )
-    resampleThreshold: float = parameter(
-        0.5, "resample when the effective fraction of particles is below this"
-    )
+    temporalUpdate: float = parameter(-1.0, "a scan is processed after this much time; negative: never", unit="s")
+    resampleThreshold: float = parameter(0.5, "resample when the effective fraction of particles is below this")
     particles: int = parameter(30, "the number of paths, each with a map", minimum=1, limits=(None, 10_000))
     xmin: float = parameter(-100.0, "lower bound of the initial map", unit="m", limits=(-1e6, 1e6))
     ymin: float = parameter(-100.0, "lower bound of the initial map", unit="m", limits=(-1e6, 1e6))
@@ -74,9 +70,7 @@ class GmappingParameters(Parameters):
     llsamplestep: float = parameter(0.01, "has no effect, as in ROS", unit="m")
     lasamplerange: float = parameter(0.005, "has no effect, as in ROS", unit="rad")
     lasamplestep: float = parameter(0.005, "has no effect, as in ROS", unit="rad")
-    occ_thresh: float = parameter(
-        0.25, "a cell is occupied if more than this fraction of its visits were ends"
-    )
+    occ_thresh: float = parameter(0.25, "a cell is occupied if more than this fraction of its visits were ends")
 
     def settings(self, range_max: float) -> Settings:
         """Return the filter's settings for a laser with this maximum range [m]."""

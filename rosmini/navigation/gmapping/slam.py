@@ -171,9 +171,7 @@ class GridSlam:
         ]
         seen = clean > 0
         lasers = compose(self.poses, self.laser)
-        self.maps.register(
-            lasers, np.ascontiguousarray(clean[seen]), np.ascontiguousarray(bearings[seen]), usable
-        )
+        self.maps.register(lasers, np.ascontiguousarray(clean[seen]), np.ascontiguousarray(bearings[seen]), usable)
         self.processed += 1
         self._driven = self._turned = 0.0
         self._last_time = time

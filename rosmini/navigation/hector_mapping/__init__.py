@@ -12,13 +12,4 @@ from .matching import Matched, match, surface
 from .scans import Limits, scan_ends
 from .slam import HectorSlam, Settings
 
-__all__ = [
-    "HectorSlam",
-    "Limits",
-    "Matched",
-    "OccupancyGrid",
-    "Settings",
-    "match",
-    "scan_ends",
-    "surface",
-]
+__all__ = ["HectorSlam", "Limits", "Matched", "OccupancyGrid", "Settings", "match", "scan_ends", "surface"]

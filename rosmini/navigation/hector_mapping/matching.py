@@ -128,6 +128,4 @@ def climb(probabilities: Any, ends: Any, pose: Any, max_steps: int, result: Any)
 @kernel(climb, surface)
 def compiled_climb(numba: Any) -> Any:
     """Return `climb`, compiled if numba is available; the body returns its signature for the decorator."""
-    return numba.void(
-        numba.float32[:, ::1], numba.float64[:, ::1], numba.float64[::1], numba.int64, numba.float64[::1]
-    )
+    return numba.void(numba.float32[:, ::1], numba.float64[:, ::1], numba.float64[::1], numba.int64, numba.float64[::1])

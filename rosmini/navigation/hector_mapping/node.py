@@ -51,9 +51,7 @@ class HectorMapping:
         self.slam = HectorSlam(p.settings())
         for level, grid in enumerate(self.slam.maps):
             height, width = grid.odds.shape
-            node.loginfo(
-                f"HectorSM map lvl {level}: cellLength: {grid.resolution:g} res x:{width} res y: {height}"
-            )
+            node.loginfo(f"HectorSM map lvl {level}: cellLength: {grid.resolution:g} res x:{width} res y: {height}")
         if len(self.slam.maps) < p.map_multi_res_levels:
             node.logwarn(
                 f"~map_multi_res_levels is {p.map_multi_res_levels}: a map of {p.map_size} cells can only be halved to "
@@ -94,9 +92,7 @@ class HectorMapping:
         self._pose = node.publisher("slam_out_pose", message_class("geometry_msgs/PoseStamped"), queue_size=1)
         self._cloud = node.publisher("slam_cloud", message_class("sensor_msgs/PointCloud"), queue_size=1)
         if p.pub_odometry:
-            self._odometry = node.publisher(
-                "scanmatch_odom", message_class("nav_msgs/Odometry"), queue_size=50
-            )
+            self._odometry = node.publisher("scanmatch_odom", message_class("nav_msgs/Odometry"), queue_size=50)
             self._odometry.expect_nobody()
         for publisher in (self._pose_update, self._pose):
             publisher.expect_nobody()
@@ -104,9 +100,7 @@ class HectorMapping:
             node.service("dynamic_map", service_class("nav_msgs/GetMap"), self._dynamic_map)
         node.service("reset_map", service_class("std_srvs/Trigger"), self._reset_map)
         node.service("pause_mapping", service_class("std_srvs/SetBool"), self._pause)
-        node.service(
-            "restart_mapping_with_new_pose", service_class("hector_mapping/ResetMapping"), self._restart
-        )
+        node.service("restart_mapping_with_new_pose", service_class("hector_mapping/ResetMapping"), self._restart)
 
     # -- scans ---------------------------------------------------------------------------------------------------
 
@@ -147,11 +141,7 @@ class HectorMapping:
         p, frame = self.parameters, message.header.frame_id.lstrip("/")
         ranges = np.asarray(message.ranges, dtype=np.float64)
         numbers = (message.angle_min, message.angle_increment, message.range_min, message.range_max)
-        if (
-            not len(ranges)
-            or not np.isfinite(numbers).all()
-            or (len(ranges) > 1 and not message.angle_increment)
-        ):
+        if not len(ranges) or not np.isfinite(numbers).all() or (len(ranges) > 1 and not message.angle_increment):
             raise RosminiError(
                 f"a scan of {frame} has {len(ranges)} ranges, the angle_increment {message.angle_increment} and "
                 f"ranges from {message.range_min} to {message.range_max}: it cannot be used for mapping"
@@ -229,11 +219,7 @@ class HectorMapping:
         self._pose_update.publish(message)
         if p.pub_odometry:
             odometry = message_class("nav_msgs/Odometry")()
-            odometry.header, odometry.child_frame_id, odometry.pose = (
-                message.header,
-                p.base_frame,
-                message.pose,
-            )
+            odometry.header, odometry.child_frame_id, odometry.pose = (message.header, p.base_frame, message.pose)
             self._odometry.publish(odometry)
         if p.pub_map_odom_transform:
             try:
@@ -327,9 +313,7 @@ class HectorMapping:
         if not all(map(math.isfinite, pose)):
             raise RosminiError(f"the pose {pose} has numbers that are not finite")
         if pose[:2] not in self.slam.maps[0]:
-            raise RosminiError(
-                f"({pose[0]:.2f}, {pose[1]:.2f}) is outside the map, {self._map_bounds_text()}"
-            )
+            raise RosminiError(f"({pose[0]:.2f}, {pose[1]:.2f}) is outside the map, {self._map_bounds_text()}")
         return pose
 
     def _set_start(self, pose: Pose) -> None:

@@ -62,9 +62,7 @@ class MapServer:
         self.node = node
         self.parameters = MapServerParameters.read(node)
         self._message = message_class("nav_msgs/OccupancyGrid")()
-        self._metadata = node.publisher(
-            "map_metadata", message_class("nav_msgs/MapMetaData"), queue_size=1, latch=True
-        )
+        self._metadata = node.publisher("map_metadata", message_class("nav_msgs/MapMetaData"), queue_size=1, latch=True)
         self._map = node.publisher("map", message_class("nav_msgs/OccupancyGrid"), queue_size=1, latch=True)
         try:
             self.grid = self._load(

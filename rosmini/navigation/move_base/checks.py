@@ -60,12 +60,8 @@ def inflation_warnings(costmap: Any) -> list[str]:
 def unread_namespaces(node: Node, known: list[str]) -> list[str]:
     """Return warnings about unread parameter namespaces whose names resemble one that is read."""
     tree = node.get_param("~", {})
-    plugins = {
-        short_name(entry.name) for entry in entry_points(group=GROUP)
-    }  # one file may configure several planners
-    unread = [
-        name for name, value in tree.items() if isinstance(value, dict) and name not in {*known, *plugins}
-    ]
+    plugins = {short_name(entry.name) for entry in entry_points(group=GROUP)}  # one file may configure several planners
+    unread = [name for name, value in tree.items() if isinstance(value, dict) and name not in {*known, *plugins}]
     return [
         f"nothing reads the parameters in {node.name}/{name}; {hint}"
         for name in unread

@@ -37,9 +37,7 @@ class Explanation:
 def explain(move_base: MoveBase) -> Explanation:
     """Report the robot's state, its last problem, and its distances to obstacles."""
     costmap = move_base.global_costmap
-    result = Explanation(
-        grid=costmap.grid, options={"footprint": costmap.footprint, "name": "global_costmap"}
-    )
+    result = Explanation(grid=costmap.grid, options={"footprint": costmap.footprint, "name": "global_costmap"})
     result.numbers["state"] = move_base.state.value
     result.lines.append(f"move_base is {move_base.state.value}, {_activity(move_base)}")
     if move_base.problem:
@@ -83,9 +81,7 @@ def _add_clearance(move_base: MoveBase, result: Explanation) -> None:
     if room is None:
         result.lines.append("no obstacle is within 1 m of the robot")
     elif room == 0:
-        result.lines.append(
-            "an obstacle is inside the footprint: no command can be valid until it is cleared"
-        )
+        result.lines.append("an obstacle is inside the footprint: no command can be valid until it is cleared")
     else:
         result.lines.append(f"the nearest obstacle is {room * 100:.0f} cm from the footprint")
 
@@ -121,10 +117,7 @@ def _add_narrowest_passage(move_base: MoveBase, result: Explanation) -> None:
     x, y, away = narrowest_place
     result.numbers["narrowest"] = narrowest_place
     # The local costmap's footprint counts: the controller checks it, while plans may assume a disc.
-    inscribed, circumscribed = (
-        move_base.local_costmap.inscribed_radius,
-        move_base.local_costmap.circumscribed_radius,
-    )
+    inscribed, circumscribed = (move_base.local_costmap.inscribed_radius, move_base.local_costmap.circumscribed_radius)
     enough = (
         "enough for every heading"
         if away > circumscribed

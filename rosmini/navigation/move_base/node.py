@@ -128,9 +128,7 @@ class MoveBase:
         self.node.service("~clear_costmaps", service_class("std_srvs/Empty"), self._clear_costmaps)
 
     def __repr__(self) -> str:
-        return (
-            f"<MoveBase {self.node.name}: {self.state.value}{'' if self.goal is None else ', with a goal'}>"
-        )
+        return f"<MoveBase {self.node.name}: {self.state.value}{'' if self.goal is None else ', with a goal'}>"
 
     # -- public state --------------------------------------------------------------------------------------------
 
@@ -374,12 +372,7 @@ class MoveBase:
         costmaps = (self.global_costmap, self.local_costmap)
         before = [lethal_cells(costmap.layers) for costmap in costmaps]
         try:
-            call(
-                self.node,
-                f"the recovery behavior {name}",
-                behavior.run_behavior,
-                budget=RECOVERY_TIME_LIMIT,
-            )
+            call(self.node, f"the recovery behavior {name}", behavior.run_behavior, budget=RECOVERY_TIME_LIMIT)
         except NavigationFailure as error:
             self.node.logerr(str(error))
         changes = (
@@ -465,12 +458,7 @@ class MoveBase:
             with suppress(TransformMissing):
                 x, y, _ = planar_pose(costmap.robot_pose())
                 half = side / 2
-                square = [
-                    (x - half, y - half),
-                    (x + half, y - half),
-                    (x + half, y + half),
-                    (x - half, y + half),
-                ]
+                square = [(x - half, y - half), (x + half, y - half), (x + half, y + half), (x - half, y + half)]
                 costmap.set_costs(square, FREE_SPACE)
 
     def _clear_costmaps(self, _: Any) -> dict[str, Any]:

@@ -20,19 +20,11 @@ class MoveBaseConfig(Parameters):
     dynamic = True
 
     base_global_planner: str = parameter("navfn/NavfnROS", "the plugin that plans through the whole map")
-    base_local_planner: str = parameter(
-        "base_local_planner/TrajectoryPlannerROS", "the plugin that follows the plan"
-    )
+    base_local_planner: str = parameter("base_local_planner/TrajectoryPlannerROS", "the plugin that follows the plan")
     planner_frequency: float = parameter(
-        0.0,
-        "planning rate; 0: for a new goal, and when the robot is stuck",
-        unit="Hz",
-        minimum=0.0,
-        maximum=100.0,
+        0.0, "planning rate; 0: for a new goal, and when the robot is stuck", unit="Hz", minimum=0.0, maximum=100.0
     )
-    controller_frequency: float = parameter(
-        20.0, "rate of velocity commands", unit="Hz", minimum=0.0, maximum=100.0
-    )
+    controller_frequency: float = parameter(20.0, "rate of velocity commands", unit="Hz", minimum=0.0, maximum=100.0)
     planner_patience: float = parameter(
         5.0, "how long to try to plan before recovering", unit="s", minimum=0.0, maximum=100.0
     )
@@ -53,11 +45,7 @@ class MoveBaseConfig(Parameters):
     clearing_rotation_allowed: bool = parameter(True, "the default recoveries rotate the robot once")
     shutdown_costmaps: bool = parameter(False, "stop the costmaps while there is no goal")
     oscillation_timeout: float = parameter(
-        0.0,
-        "how long the robot may stay within oscillation_distance; 0: no limit",
-        unit="s",
-        minimum=0.0,
-        maximum=60.0,
+        0.0, "how long the robot may stay within oscillation_distance; 0: no limit", unit="s", minimum=0.0, maximum=60.0
     )
     oscillation_distance: float = parameter(
         0.5, "a move over this distance counts as progress", unit="m", minimum=0.0, maximum=10.0

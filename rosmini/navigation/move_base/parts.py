@@ -61,9 +61,7 @@ def structure_of(move_base: MoveBase) -> Structure:
     for which, planner in ((GLOBAL, move_base.planner), (LOCAL, move_base.controller)):
         parts.append(_of_planner(move_base, which))
         links += [
-            Link(each.name, _planner(which), "costs")
-            for each in costmaps
-            if getattr(planner, "costmap", None) is each
+            Link(each.name, _planner(which), "costs") for each in costmaps if getattr(planner, "costmap", None) is each
         ]
     if move_base.recovery_behaviors:
         parts.append(_recoveries(move_base))

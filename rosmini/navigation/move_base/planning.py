@@ -35,11 +35,7 @@ class PlannerLane:
     """
 
     def __init__(
-        self,
-        node: Node,
-        machine: StateMachine,
-        plan: Callable[[Any], Sequence[Any]],
-        stop: Callable[[], object],
+        self, node: Node, machine: StateMachine, plan: Callable[[Any], Sequence[Any]], stop: Callable[[], object]
     ) -> None:
         self.node, self.machine = node, machine
         self._plan, self._stop = plan, stop

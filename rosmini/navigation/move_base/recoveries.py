@@ -62,27 +62,19 @@ class Recoveries:
         self._node = node
         self._context = (buffer, global_costmap, local_costmap)
 
-    def load(
-        self, *, rotate: bool, reset_distance: float, circumscribed_radius: float
-    ) -> list[NamedBehavior]:
+    def load(self, *, rotate: bool, reset_distance: float, circumscribed_radius: float) -> list[NamedBehavior]:
         """Return the behaviours that the parameter lists, or the default ones if it is missing or invalid."""
         if self._node.has_param("~recovery_behaviors"):
             try:
                 listed = parsed_entries(self._node.get_param("~recovery_behaviors"))
-                return [
-                    NamedBehavior(name, self._create(name, self._full_name(kind))) for name, kind in listed
-                ]
+                return [NamedBehavior(name, self._create(name, self._full_name(kind))) for name, kind in listed]
             except InvalidList as error:
                 self._node.logerr(str(error))
             except PluginError as error:
-                self._node.logerr(
-                    f"Failed to load a plugin. Using default recovery behaviors. Error: {error}"
-                )
+                self._node.logerr(f"Failed to load a plugin. Using default recovery behaviors. Error: {error}")
         return self._default(rotate, reset_distance, circumscribed_radius)
 
-    def _default(
-        self, rotate: bool, reset_distance: float, circumscribed_radius: float
-    ) -> list[NamedBehavior]:
+    def _default(self, rotate: bool, reset_distance: float, circumscribed_radius: float) -> list[NamedBehavior]:
         """Return the default list: clear far away, rotate, clear closer, rotate again."""
         self._node.set_param("~conservative_reset/reset_distance", reset_distance)
         self._node.set_param("~aggressive_reset/reset_distance", circumscribed_radius * 4)

@@ -202,10 +202,7 @@ class StateMachine:
 
     def robot_at(self, now: float, x: float, y: float) -> None:
         """Handle a new robot position: a move of `oscillation_distance` counts as progress."""
-        if (
-            self._progress_at is not None
-            and math.dist(self._progress_at, (x, y)) < self.limits.oscillation_distance
-        ):
+        if self._progress_at is not None and math.dist(self._progress_at, (x, y)) < self.limits.oscillation_distance:
             return
         self._progress_at, self.last_progress = (x, y), now
         if self.trigger is Trigger.OSCILLATION:

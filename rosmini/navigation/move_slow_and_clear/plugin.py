@@ -37,12 +37,8 @@ class MoveSlowAndClearParameters(Parameters):
     limited_rot_speed: float = parameter(0.45, "the limited turning speed", unit="rad/s")
     limited_distance: float = parameter(0.3, "straight-line distance after which the limit ends", unit="m")
     planner_namespace: str = parameter("DWAPlannerROS", "the local planner, below the node's name")
-    max_trans_param_name: str = parameter(
-        "max_vel_trans", "the name of the planner's parameter for the maximum speed"
-    )
-    max_rot_param_name: str = parameter(
-        "max_vel_theta", "the name of its parameter for the maximum turning speed"
-    )
+    max_trans_param_name: str = parameter("max_vel_trans", "the name of the planner's parameter for the maximum speed")
+    max_rot_param_name: str = parameter("max_vel_theta", "the name of its parameter for the maximum turning speed")
 
 
 class MoveSlowAndClear(RecoveryBehavior, plugin="move_slow_and_clear/MoveSlowAndClear"):

@@ -54,12 +54,7 @@ def _corners(grid: GridMap, origin: Pose) -> np.ndarray[tuple[int, int], np.dtyp
 
 
 def _add_map(
-    cells: np.ndarray[tuple[int, int], np.dtype[np.int8]],
-    grid: GridMap,
-    origin: Pose,
-    side: float,
-    left: int,
-    low: int,
+    cells: np.ndarray[tuple[int, int], np.dtype[np.int8]], grid: GridMap, origin: Pose, side: float, left: int, low: int
 ) -> None:
     """Add a map to `cells` (h, w) of size `side` [m], whose lower left one has the index (`left`, `low`)."""
     corners = _corners(grid, origin) / side

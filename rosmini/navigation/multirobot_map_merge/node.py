@@ -102,9 +102,7 @@ class MapMerge:
             return
         robot = self.robots[name] = _Robot(pose)
         self.node.loginfo(f"adding robot [{name}] to system")
-        self.node.subscriber(
-            topic, self._grid_class, lambda message: self._on_map(robot, name, message), queue_size=1
-        )
+        self.node.subscriber(topic, self._grid_class, lambda message: self._on_map(robot, name, message), queue_size=1)
         updates = join(name, self.parameters.robot_map_updates_topic)
         kind = message_class("map_msgs/OccupancyGridUpdate")
         self.node.subscriber(updates, kind, lambda update: self._on_update(robot, update), queue_size=10)
@@ -112,12 +110,9 @@ class MapMerge:
     def _pose(self, name: str) -> Pose | None:
         """Return a robot's start pose, which is that of its map's frame; None if one of the parameters is missing."""
         found = [
-            self.node.get_param(join(name, f"map_merge/init_pose_{each}"), None)
-            for each in ("x", "y", "z", "yaw")
+            self.node.get_param(join(name, f"map_merge/init_pose_{each}"), None) for each in ("x", "y", "z", "yaw")
         ]
-        numbers = [
-            float(each) for each in found if isinstance(each, int | float) and not isinstance(each, bool)
-        ]
+        numbers = [float(each) for each in found if isinstance(each, int | float) and not isinstance(each, bool)]
         return (numbers[0], numbers[1], numbers[3]) if len(numbers) == 4 else None
 
     # -- maps ----------------------------------------------------------------------------------------------------

@@ -17,9 +17,7 @@ def point_cloud(frame_id: str, stamp: Time, names: Sequence[str], rows: ArrayLik
     points = np.asarray(rows, dtype="<f4").reshape(-1, len(names))
     message, field = message_class("sensor_msgs/PointCloud2")(), message_class("sensor_msgs/PointField")
     message.header.frame_id, message.header.stamp = frame_id, stamp
-    message.fields = [
-        field(name=name, offset=4 * i, datatype=field.FLOAT32, count=1) for i, name in enumerate(names)
-    ]
+    message.fields = [field(name=name, offset=4 * i, datatype=field.FLOAT32, count=1) for i, name in enumerate(names)]
     message.height, message.width, message.is_dense = 1, len(points), True
     message.point_step, message.row_step = 4 * len(names), points.nbytes
     message.data = np.frombuffer(points.tobytes(), dtype=np.uint8)

@@ -79,9 +79,7 @@ class RecoveryBehavior(Plugin, ABC):
     global_costmap: Costmap2DROS
     local_costmap: Costmap2DROS
 
-    def initialize(
-        self, name: str, buffer: Buffer, global_costmap: Costmap2DROS, local_costmap: Costmap2DROS
-    ) -> None:
+    def initialize(self, name: str, buffer: Buffer, global_costmap: Costmap2DROS, local_costmap: Costmap2DROS) -> None:
         """Set up the behaviour. Called once, before all other methods."""
         self.name, self.buffer = name, buffer
         self.global_costmap, self.local_costmap = global_costmap, local_costmap

@@ -79,9 +79,7 @@ def _plugin_class(interface: type[T], name: str) -> type[T]:
     except PluginError as error:
         if not unread:
             raise
-        raise PluginError(
-            "\n  ".join([f"{error}; and these packages could not be read:", *unread])
-        ) from error
+        raise PluginError("\n  ".join([f"{error}; and these packages could not be read:", *unread])) from error
 
 
 def short_name(name: str) -> str:
@@ -139,11 +137,7 @@ def _class(element: Element, library: Element, package: Package, file: Path) -> 
     kind = element.attribute("type")
     name = element.attributes.get("name") or kind
     return DeclaredPlugin(
-        name.replace("::", "/"),
-        library.attribute("path"),
-        short_name(kind.replace(".", "/")),
-        package.path,
-        file,
+        name.replace("::", "/"), library.attribute("path"), short_name(kind.replace(".", "/")), package.path, file
     )
 
 
@@ -173,9 +167,7 @@ def _module(declared: DeclaredPlugin) -> Any:
     roots = [each for each in (folder / "src", folder) if (each / name.partition(".")[0]).exists()]
     roots += [each for each in (folder / "src", folder) if (each / f"{name}.py").is_file()]
     if not roots:
-        raise PluginError(
-            f"{declared.file} names the module {name}, which is not in {folder / 'src'} or {folder}"
-        )
+        raise PluginError(f"{declared.file} names the module {name}, which is not in {folder / 'src'} or {folder}")
     with _importing_from(roots[0], name.partition(".")[0]):
         try:
             return import_module(name)

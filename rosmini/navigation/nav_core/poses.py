@@ -53,16 +53,11 @@ def checked_goal(goal: Any) -> Pose:
         raise BadGoal("Quaternion has nans or infs... discarding as a navigation goal", quaternion=_shown(q))
     if not all(map(math.isfinite, (p.x, p.y, p.z))):
         raise BadGoal(
-            f"the goal's position is ({p.x}, {p.y}, {p.z}): it must be finite numbers, in metres",
-            position=(p.x, p.y),
+            f"the goal's position is ({p.x}, {p.y}, {p.z}): it must be finite numbers, in metres", position=(p.x, p.y)
         )
     length2 = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w
     if abs(length2 - 1.0) > LENGTH_TOLERANCE:
-        hint = (
-            " (a message whose orientation was never set has w 0: set orientation.w = 1)"
-            if length2 == 0
-            else ""
-        )
+        hint = " (a message whose orientation was never set has w 0: set orientation.w = 1)" if length2 == 0 else ""
         raise BadGoal(
             f"Quaternion length is {math.sqrt(length2):.3f}, not 1{hint}... discarding as navigation goal",
             quaternion=_shown(q),

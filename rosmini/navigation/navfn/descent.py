@@ -117,9 +117,7 @@ def step_down(
     return NORMAL, n, to_x, to_y
 
 
-def step_to_lowest(
-    potential: NDArray[np.float32], n: int, width: int, dx: float, dy: float
-) -> tuple[int, int]:
+def step_to_lowest(potential: NDArray[np.float32], n: int, width: int, dx: float, dy: float) -> tuple[int, int]:
     """Move to the centre of the lowest neighbour, or first of this cell if an unreached cell is beside the step."""
     centred = dx == 0 and dy == 0
     n += math.floor(dx + 0.5) + math.floor(dy + 0.5) * width

@@ -50,6 +50,4 @@ class PlannerNode:
         try:
             self.planner.make_plan(self.costmap.robot_pose(), goal)
         except NavigationFailure as failure:
-            self.node.logwarn(
-                f"no plan to ({goal.pose.position.x:.2f}, {goal.pose.position.y:.2f}): {failure}"
-            )
+            self.node.logwarn(f"no plan to ({goal.pose.position.x:.2f}, {goal.pose.position.y:.2f}): {failure}")

@@ -22,9 +22,7 @@ OFF_MAP_START = (
     "The robot's start position is off the global costmap. Planning will always fail, are you sure the robot has been "
     "properly localized?"
 )
-OFF_MAP_GOAL = (
-    "The goal sent to the {} planner is off the global costmap. Planning will always fail to this goal."
-)
+OFF_MAP_GOAL = "The goal sent to the {} planner is off the global costmap. Planning will always fail to this goal."
 """Messages of both planners in ROS."""
 
 

@@ -45,9 +45,7 @@ class NavfnROS(GridPlanner, plugin="navfn/NavfnROS"):
         self.parameters = own
         self.default_tolerance = own.default_tolerance
         self._potentials = (
-            self.node.publisher(
-                f"~{self.name}/potential", message_class("sensor_msgs/PointCloud2"), queue_size=1
-            )
+            self.node.publisher(f"~{self.name}/potential", message_class("sensor_msgs/PointCloud2"), queue_size=1)
             if own.visualize_potential
             else None
         )
@@ -60,9 +58,7 @@ class NavfnROS(GridPlanner, plugin="navfn/NavfnROS"):
             if tolerance <= 0:
                 raise
             end = cell_of(self.grid.world_to_map_clamped(goal.pose.position.x, goal.pose.position.y))
-        self.search = search = NavfnSearch(
-            self.grid.costs, begin, end, allow_unknown=self.parameters.allow_unknown
-        )
+        self.search = search = NavfnSearch(self.grid.costs, begin, end, allow_unknown=self.parameters.allow_unknown)
         search.expand()
         x, y = self._reachable(search, goal.pose.position.x, goal.pose.position.y, tolerance)
         cell = self.grid.world_to_map_clamped(x, y)
@@ -94,6 +90,4 @@ class NavfnROS(GridPlanner, plugin="navfn/NavfnROS"):
         points[:, 1] = self.grid.origin[1] + (rows + 0.5) * self.grid.resolution
         points[:, 2] = potential / at_goal * 20
         points[:, 3] = potential
-        self._potentials.publish(
-            point_cloud(self.costmap.global_frame, self.now(), ("x", "y", "z", "pot"), points)
-        )
+        self._potentials.publish(point_cloud(self.costmap.global_frame, self.now(), ("x", "y", "z", "pot"), points))

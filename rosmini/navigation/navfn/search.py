@@ -22,13 +22,7 @@ from rosmini.navigation.costmap_2d.costmap import (
     NO_INFORMATION,
     Costmap2D,
 )
-from rosmini.navigation.nav_core.failures import (
-    GoalBlocked,
-    NoPath,
-    OutsideMap,
-    PlanningFailure,
-    StartBlocked,
-)
+from rosmini.navigation.nav_core.failures import GoalBlocked, NoPath, OutsideMap, PlanningFailure, StartBlocked
 
 from .descent import FULL, compiled_descend
 from .wave import ARRIVED, EXPANDED, HIGH, compiled_wave
@@ -123,13 +117,7 @@ class Search(ABC):
         around = np.stack([whole[1:-1, :-2], whole[1:-1, 2:], whole[:-2, 1:-1], whole[2:, 1:-1]])
         best = around.argmin(axis=0)
         rows, columns = np.indices(best.shape)
-        cells = np.stack(
-            [
-                columns + np.array([-1, 1, 0, 0])[best],
-                rows + np.array([0, 0, -1, 1])[best],
-            ],
-            axis=-1,
-        )
+        cells = np.stack([columns + np.array([-1, 1, 0, 0])[best], rows + np.array([0, 0, -1, 1])[best]], axis=-1)
         cells[~((around.min(axis=0) < self.potential) & self.reached)] = -1
         return cells
 
@@ -276,9 +264,7 @@ class WaveSearch(Search):
         around = [n for cell in seeds for n in (cell + 1, cell - 1, cell - self.row, cell + self.row)]
         flat = self.costs.ravel()
         # Several seeds may improve each other; a single one cannot be improved.
-        wait = [
-            n for n in dict.fromkeys(around) if table[flat[n]] < HIGH and (n not in seeds or len(seeds) > 1)
-        ]
+        wait = [n for n in dict.fromkeys(around) if table[flat[n]] < HIGH and (n not in seeds or len(seeds) > 1)]
         self._blocks[: len(wait)] = wait
         self._pending[wait] = 1
         self._state = np.array([0, 1, 0, len(wait), 0, 0, 0], dtype=np.int64)

@@ -34,9 +34,7 @@ LIMITS = (
 class RotateParameters(Parameters):
     """The parameters of a `rotate_recovery/RotateRecovery`, in `~NAME/`."""
 
-    sim_granularity: float = parameter(
-        0.017, "angle between the headings that are checked", unit="rad", minimum=1e-4
-    )
+    sim_granularity: float = parameter(0.017, "angle between the headings that are checked", unit="rad", minimum=1e-4)
     frequency: float = parameter(20.0, "how often commands are sent", unit="Hz", minimum=0.1)
 
 
@@ -48,9 +46,7 @@ class RotateRecovery(RecoveryBehavior, plugin="rotate_recovery/RotateRecovery"):
         super().initialize(name, buffer, global_costmap, local_costmap)
         self.node = local_costmap.node
         self.parameters = RotateParameters.read(self.node, f"~{name}")
-        self.acceleration, self.fastest, self.slowest, self.tolerance = (
-            self._limit(*each) for each in LIMITS
-        )
+        self.acceleration, self.fastest, self.slowest, self.tolerance = (self._limit(*each) for each in LIMITS)
         self._twist = message_class("geometry_msgs/Twist")
         self._commands = self.node.publisher("cmd_vel", self._twist, queue_size=10)
 

@@ -413,9 +413,7 @@ class Bag:
         return table(self.message_class(topic), self.read_messages(topic))
 
     def connections(
-        self,
-        topics: str | Iterable[str] | None = None,
-        connection_filter: ConnectionFilter | None = None,
+        self, topics: str | Iterable[str] | None = None, connection_filter: ConnectionFilter | None = None
     ) -> list[Connection]:
         """Return the connections of one, several or all topics.
 
@@ -430,9 +428,7 @@ class Bag:
             if (names is None or found.topic in names or canonicalize(found.topic) in names)
             and (
                 connection_filter is None
-                or connection_filter(
-                    found.topic, found.type, found.md5sum, found.definition, dict(found.header)
-                )
+                or connection_filter(found.topic, found.type, found.md5sum, found.definition, dict(found.header))
             )
         ]
 
@@ -472,8 +468,7 @@ class Bag:
         """Return the compression of most chunks, and the number of bytes without and with it."""
         chunks = self.index.chunks
         ranked = sorted(
-            ((count, name) for name, count in Counter(chunk.compression for chunk in chunks).items()),
-            reverse=True,
+            ((count, name) for name, count in Counter(chunk.compression for chunk in chunks).items()), reverse=True
         )
         return CompressionTuple(
             ranked[0][1] if ranked else self.compression,
@@ -492,18 +487,14 @@ class Bag:
             found.setdefault(each.type, each.md5sum)
         return dict(sorted(found.items()))
 
-    def topics(
-        self, topic_filters: str | list[str] | None = None, *, freq: bool = True
-    ) -> dict[str, TopicTuple]:
+    def topics(self, topic_filters: str | list[str] | None = None, *, freq: bool = True) -> dict[str, TopicTuple]:
         """Return the summaries of one, several or all topics by name; frequencies require reading all index data."""
         reader = self.reader()
         topics = {}
         for topic in sorted({found.topic for found in self.connections(topic_filters)}):
             here = self.connections(topic)
             count = sum(self.index.count(found.id) for found in here)
-            topics[topic] = TopicTuple(
-                here[0].type, count, len(here), frequency(reader, here) if freq else None
-            )
+            topics[topic] = TopicTuple(here[0].type, count, len(here), frequency(reader, here) if freq else None)
         return topics
 
     def show(self, **options: Any) -> Any:
@@ -566,9 +557,7 @@ class Bag:
         if not topic:
             raise ValueError("topic is invalid: it is empty")
         if writer is None:
-            raise NotOpenForWriting(
-                f'{self._name} is open for reading: open it with mode "w" or "a" to write'
-            )
+            raise NotOpenForWriting(f'{self._name} is open for reading: open it with mode "w" or "a" to write')
         if msg is None or (raw and len(msg) not in (4, 5)):
             raise ValueError("msg is invalid: a message, or with raw=True (type, bytes, md5sum, class)")
         data: bytes
@@ -582,14 +571,7 @@ class Bag:
             number = self._connect(topic, kind, md5sum, cls, connection_header)
         writer.write(number, time.to_nsec(), data)
 
-    def _connect(
-        self,
-        topic: str,
-        kind: str,
-        md5sum: str,
-        cls: Any,
-        header: Mapping[str, str | bytes] | None,
-    ) -> int:
+    def _connect(self, topic: str, kind: str, md5sum: str, cls: Any, header: Mapping[str, str | bytes] | None) -> int:
         if header is None:
             if cls is None:
                 raise ROSBagException(f"{kind} on {topic}: give its class, or a connection header")

@@ -125,11 +125,7 @@ def _topic_rows(topics: dict[str, TopicTuple]) -> list[str]:
     topic = max(map(len, topics))
     count = max(len(str(found.message_count)) for found in topics.values())
     kind = max(len(found.msg_type) for found in topics.values())
-    shown = {
-        name: human_frequency(found.frequency)
-        for name, found in topics.items()
-        if found.frequency is not None
-    }
+    shown = {name: human_frequency(found.frequency) for name, found in topics.items() if found.frequency is not None}
     wide = max(map(len, shown.values()), default=0)
     rows = []
     for name, found in topics.items():
@@ -180,11 +176,7 @@ def _yaml(bag: Bag, *, freq: bool) -> str:
         lines += [f"    - type: {name}", f"      md5: {md5}"]
     lines.append("topics:")
     for name, found in bag.topics(freq=freq).items():
-        lines += [
-            f"    - topic: {name}",
-            f"      type: {found.msg_type}",
-            f"      messages: {found.message_count}",
-        ]
+        lines += [f"    - topic: {name}", f"      type: {found.msg_type}", f"      messages: {found.message_count}"]
         if found.connections > 1:
             lines.append(f"      connections: {found.connections}")
         if found.frequency is not None:
@@ -212,7 +204,6 @@ def _shown(value: Any, indent: int = 0) -> str:
         return "".join(f"{margin}- {_shown(item, indent + 1)}\n" for item in value)
     if isinstance(value, dict):
         return "\n".join(
-            (margin if number else "") + f"{name}: {item}"
-            for number, (name, item) in enumerate(value.items())
+            (margin if number else "") + f"{name}: {item}" for number, (name, item) in enumerate(value.items())
         )
     return margin + str(value)

@@ -140,15 +140,11 @@ def _messages(file: IO[bytes], name: str) -> Iterator[tuple[Any, Any, Any]]:
                 channels[record.id] = record
             elif isinstance(record, Message):
                 if record.channel_id not in channels:
-                    raise ValueError(
-                        f"a message of the channel {record.channel_id}, which comes nowhere before it"
-                    )
+                    raise ValueError(f"a message of the channel {record.channel_id}, which comes nowhere before it")
                 channel = channels[record.channel_id]
                 yield schemas.get(channel.schema_id), channel, record
     except (McapError, ValueError, OverflowError, struct.error, ROSBagFormatException) as error:
-        raise ROSBagException(
-            f"{name} is no MCAP file, or is damaged before byte {file.tell()}: {error}"
-        ) from error
+        raise ROSBagException(f"{name} is no MCAP file, or is damaged before byte {file.tell()}: {error}") from error
 
 
 def _records(file: IO[bytes]) -> Iterator[Any]:
@@ -217,9 +213,7 @@ def _unpacked(data: bytes, compression: str, size: int, position: int) -> bytes:
             while saved.tell() <= size and (piece := reader.read(PIECE)):
                 saved.write(piece)
     except ZstdError as error:
-        raise ROSBagFormatException(
-            f"the zstd chunk at byte {position} does not decompress: {error}"
-        ) from error
+        raise ROSBagFormatException(f"the zstd chunk at byte {position} does not decompress: {error}") from error
     if saved.tell() != size:
         raise ROSBagFormatException(
             f"the zstd chunk at byte {position} claims to hold {size:,} bytes and holds "
@@ -240,8 +234,6 @@ def _connection(schema: Any, channel: Any, name: str) -> tuple[Any, dict[str, st
     try:
         cls = class_from(schema.name, definition)
     except (UnknownType, UnknownPackage, DefinitionError) as error:
-        raise ROSBagException(
-            f"the definition of {shown(schema.name)} in {name} is broken: {error}"
-        ) from error
+        raise ROSBagException(f"the definition of {shown(schema.name)} in {name} is broken: {error}") from error
     known = {"topic": channel.topic, "type": schema.name, "message_definition": definition}
     return cls, {"md5sum": cls._md5sum, **channel.metadata, **known}

@@ -109,9 +109,7 @@ def _writer(conn: Connection, inbag: Bag, outbag: Bag) -> Callable[[RawMessage],
         number = outbag.connect(conn)
         return lambda message: outbag.write_raw(number, message.time, message.data)
     recorded = recorded_class(conn)
-    fields = {
-        name: value for name, value in conn.header.items() if name not in ("md5sum", "message_definition")
-    }
+    fields = {name: value for name, value in conn.header.items() if name not in ("md5sum", "message_definition")}
     header = {**fields, "md5sum": local._md5sum, "message_definition": local._full_text}
     changed = outbag.connect(connection(0, conn.topic, header))
 

@@ -55,6 +55,4 @@ def _opening() -> Iterator[None]:
     except OSError as error:
         path = Path(error.filename or "")
         hint = nearest(path.name, names_in(path.parent)) if isinstance(error, FileNotFoundError) else ""
-        raise ROSBagException(
-            f"Error opening file: {path}: {error.strerror}{f'; {hint}' if hint else ''}"
-        ) from None
+        raise ROSBagException(f"Error opening file: {path}: {error.strerror}{f'; {hint}' if hint else ''}") from None

@@ -46,13 +46,7 @@ def record_parser() -> Parser:
     add = parser.add_option
     add("-a", "--all", action="store_true", default=False, help="all topics, those that come later included")
     add("-e", "--regex", action="store_true", default=False, help="the topics are regular expressions")
-    add(
-        "-p",
-        "--publish",
-        action="store_true",
-        default=False,
-        help="publish on begin_write that recording begins",
-    )
+    add("-p", "--publish", action="store_true", default=False, help="publish on begin_write that recording begins")
     add("-x", "--exclude", metavar="EXCLUDE_REGEX", help="not the topics that match (with -a or -e)")
     add("-q", "--quiet", action="store_true", default=False, help="print nothing")
     add("-o", "--output-prefix", metavar="PREFIX", help="name the bag PREFIX_DATE.bag")
@@ -158,12 +152,7 @@ def play_parser() -> Parser:
     add("-r", "--rate", type="float", default=1.0, metavar="FACTOR", help="play FACTOR times as fast")
     add("-s", "--start", type="float", default=0.0, metavar="SEC", help="begin SEC seconds into the bags")
     add("-u", "--duration", type="float", metavar="SEC", help="play SEC seconds of the bags")
-    add(
-        "--skip-empty",
-        type="float",
-        metavar="SEC",
-        help="leave out times of more than SEC seconds without a message",
-    )
+    add("--skip-empty", type="float", metavar="SEC", help="leave out times of more than SEC seconds without a message")
     add("-l", "--loop", action="store_true", default=False, help="begin again at the end")
     add("-k", "--keep-alive", action="store_true", default=False, help="stay at the end, for what is latched")
     add("--try-future-version", action="store_true", help="accepted; there is no version after 2.0")
@@ -178,12 +167,7 @@ def play_parser() -> Parser:
             help=text,
         )
     add("--bags", help="a bag, after --topics")
-    add(
-        "--wait-for-subscribers",
-        action="store_true",
-        default=False,
-        help="begin when each topic has a subscriber",
-    )
+    add("--wait-for-subscribers", action="store_true", default=False, help="begin when each topic has a subscriber")
     return parser  # fmt: skip
 
 

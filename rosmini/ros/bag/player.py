@@ -128,9 +128,7 @@ class Player:
         starts = [bag.index.start for bag in self._bags if bag.index.start is not None]
         ends = [bag.index.end for bag in self._bags if bag.index.end is not None]
         if not starts:
-            raise ROSBagException(
-                f"there is no message in {', '.join(str(bag.filename) for bag in self._bags)}"
-            )
+            raise ROSBagException(f"there is no message in {', '.join(str(bag.filename) for bag in self._bags)}")
         topics = {conn.topic for bag in self._bags for conn in bag.connections()}
         for topic in (*self.options.topics, *self.options.pause_topics):
             if self.node.resolve(topic) not in topics and topic not in topics:
@@ -166,9 +164,7 @@ class Player:
             for number in sorted(self._chosen(bag)):
                 self._advertise(bag, number)
         if self.options.clock:
-            self._publishers["/clock"] = self.node.publisher(
-                "/clock", self.node.graph.clock_class, queue_size=None
-            )
+            self._publishers["/clock"] = self.node.publisher("/clock", self.node.graph.clock_class, queue_size=None)
         self._rewind(self._scheduler.now_ns() + int(self.options.delay * 1e9))
         if self.options.wait_for_subscribers and not self.paused:
             self.paused = True

@@ -99,9 +99,7 @@ def read_index(file: BinaryIO, name: str) -> Index:
 def _index(file: BinaryIO, name: str) -> Index:
     first = read_record(file, len(MAGIC))
     if first is None:
-        raise ROSBagUnindexedException(
-            f"{name} ends after its first line: nothing was recorded, or it is truncated"
-        )
+        raise ROSBagUnindexedException(f"{name} ends after its first line: nothing was recorded, or it is truncated")
     if first.op != OP_BAG_HEADER:
         raise ROSBagFormatException("there is no bag header after its first line")
     encryption(first, name)
@@ -132,9 +130,7 @@ def _check_apart(chunks: list[Chunk]) -> None:
     end = 0
     for chunk in sorted(chunks, key=lambda each: each.position):
         if chunk.position < end:
-            raise ROSBagFormatException(
-                f"two chunk infos name the same bytes at {chunk.position}: the file is damaged"
-            )
+            raise ROSBagFormatException(f"two chunk infos name the same bytes at {chunk.position}: the file is damaged")
         end = chunk.data_position + chunk.compressed
 
 
@@ -160,9 +156,7 @@ def connection_of(file: BinaryIO, record: Record, name: str) -> Connection:
     """Return the connection that a record of the file describes."""
     raw = read_data(file, record, "a connection")
     topic = record.fields.get("topic", b"").decode("utf-8", "replace")
-    return Connection(
-        field(record, "conn", u32), topic, raw, f"{name}: the connection at byte {record.position}"
-    )
+    return Connection(field(record, "conn", u32), topic, raw, f"{name}: the connection at byte {record.position}")
 
 
 def chunk_at(file: BinaryIO, position: int) -> Chunk:
@@ -290,9 +284,7 @@ class Reader:
                 chunk = chunks[number]
                 if number != last:
                     last = number
-                    large = chunk.compression == Compression.NONE and chunk.size > LARGE * sum(
-                        chunk.counts.values()
-                    )
+                    large = chunk.compression == Compression.NONE and chunk.size > LARGE * sum(chunk.counts.values())
                     data = b""  # so that two chunks are never in memory at once
                     data = data if large else self.data(chunk)
                 # The message gets no name, so that its memory is free again for the next one.
@@ -325,9 +317,7 @@ def _counted(message: bytes, chunk: Chunk, number: int, read: dict[int, int]) ->
     """Return a message and count its bytes. Raises ``ROSBagFormatException`` if a chunk's messages overlap."""
     read[number] = read.get(number, 0) + len(message)
     if read[number] > chunk.size:
-        raise ROSBagFormatException(
-            f"the messages of the chunk at byte {chunk.position} overlap: the file is damaged"
-        )
+        raise ROSBagFormatException(f"the messages of the chunk at byte {chunk.position} overlap: the file is damaged")
     return message
 
 

@@ -168,9 +168,7 @@ class Recorder:
     def path(self) -> Path:
         """Path of the open bag, or of the last one."""
         if self._files is None:
-            raise RosminiError(
-                "nothing is recorded before the first /clock message, since /use_sim_time is true"
-            )
+            raise RosminiError("nothing is recorded before the first /clock message, since /use_sim_time is true")
         return self._files.path
 
     # -- the beginning ---------------------------------------------------------------------------------------------
@@ -272,10 +270,7 @@ class Recorder:
         header = message._connection_header
         key = id(header)
         if key not in self._connections:
-            self._connections[key] = (
-                connection(0, topic, header),
-                header,
-            )  # kept alive, so that its id is not reused
+            self._connections[key] = (connection(0, topic, header), header)  # kept alive, so that its id is not reused
         data = type(message)._encode(message)
         if self.options.repeat_latched and header.get("latching") == "1":
             self._latched[key] = data

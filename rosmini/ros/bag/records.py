@@ -19,12 +19,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 from rosmini.core.errors import shown
 
-from .errors import (
-    ROSBagEncryptNotSupportedException,
-    ROSBagException,
-    ROSBagFormatException,
-    UnknownCompression,
-)
+from .errors import ROSBagEncryptNotSupportedException, ROSBagException, ROSBagFormatException, UnknownCompression
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -115,9 +110,7 @@ def parse_fields(header: bytes, where: str) -> dict[str, bytes]:
         length = u32.unpack_from(header, at)[0]
         name, equals, value = header[at + 4 : at + 4 + length].partition(b"=")
         if at + 4 + length > end or not equals:
-            raise ROSBagFormatException(
-                f"{where}: a header field is no name=value: the file is damaged or not a bag"
-            )
+            raise ROSBagFormatException(f"{where}: a header field is no name=value: the file is damaged or not a bag")
         fields[name.decode("utf-8", "replace")] = value
         at += 4 + length
     return fields
@@ -138,9 +131,7 @@ def read_exactly(file: BinaryIO, length: int, what: str) -> bytes:
     """Read ``length`` bytes. Raises ``Truncated`` before allocating memory if there are fewer."""
     data = b"" if length > PIECE and length > _left(file) else file.read(length)
     if len(data) < length:
-        raise Truncated(
-            f"the file ends within {what}: it is truncated. `rosbag reindex` saves what is in it."
-        )
+        raise Truncated(f"the file ends within {what}: it is truncated. `rosbag reindex` saves what is in it.")
     return data
 
 
@@ -213,11 +204,7 @@ def compress(data: bytes, compression: str) -> bytes:
 
         # The only form that ROS's reader accepts: independent blocks, with a checksum over the content.
         packed: bytes = lz4.frame.compress(
-            data,
-            block_size=lz4.frame.BLOCKSIZE_MAX4MB,
-            block_linked=False,
-            content_checksum=True,
-            store_size=False,
+            data, block_size=lz4.frame.BLOCKSIZE_MAX4MB, block_linked=False, content_checksum=True, store_size=False
         )
         return packed
     return data
@@ -313,9 +300,7 @@ def rescue(data: bytes, compression: str, most: int) -> bytes:
     if compression not in COMPRESSIONS:
         return b""
     saved = io.BytesIO()
-    with contextlib.suppress(
-        OSError, ValueError, EOFError, RuntimeError
-    ):  # what came before the damage counts
+    with contextlib.suppress(OSError, ValueError, EOFError, RuntimeError):  # what came before the damage counts
         _unpack(data, compression, min(most, most_unpacked(len(data))), saved)
     return saved.getvalue()
 
@@ -343,9 +328,7 @@ def check_magic(file: BinaryIO, name: str) -> int:
     file.seek(0)
     start = file.read(len(MAGIC))
     if not start:
-        raise ROSBagFormatException(
-            f"{name} is an empty file, not a bag: was its recording ended before it began?"
-        )
+        raise ROSBagFormatException(f"{name} is an empty file, not a bag: was its recording ended before it began?")
     version = re.match(rb"#ROS.* V([0-9])\.([0-9])", start)
     if version is not None and version[1] == b"2" and start.endswith(b"\n") and len(start) == len(MAGIC):
         return 200 + int(version[2])
@@ -355,9 +338,7 @@ def check_magic(file: BinaryIO, name: str) -> int:
             f"{name} is a bag of version {number}; only 2.0 is read here. Real ROS converts it: `rosbag fix`."
         )
     if MAGIC.startswith(start):
-        raise ROSBagFormatException(
-            f"{name} has only {len(start)} bytes of a bag in it: nothing was recorded"
-        )
+        raise ROSBagFormatException(f"{name} has only {len(start)} bytes of a bag in it: nothing was recorded")
     if start.startswith(b"SQLite"):
         raise ROSBagFormatException(f"{name} is a database, perhaps a bag of ROS 2: not a ROS 1 bag")
     if start.startswith(b"\x89MCAP"):

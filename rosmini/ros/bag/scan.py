@@ -154,11 +154,7 @@ def _take_chunk(file: BinaryIO, record: Record, found: Scan) -> Chunk | None:
     """Add a whole chunk and return it; None if it has no messages or is damaged."""
     compression = record.fields.get("compression", b"").decode("utf-8", "replace")
     chunk = Chunk(
-        record.position,
-        record.data_position,
-        compression,
-        record.data_length,
-        number_of(record, "size", u32),
+        record.position, record.data_position, compression, record.data_length, number_of(record, "size", u32)
     )
     found.allowance.charge(chunk.size, chunk.compressed)
     packed = read_data(file, record, f"the chunk at byte {record.position}")

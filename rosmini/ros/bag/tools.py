@@ -56,9 +56,7 @@ class TypeChange(NamedTuple):
 
 
 def copy_messages(
-    messages: Iterable[RawMessage],
-    target: Bag,
-    keep: Callable[[RawMessage], object] | None = None,
+    messages: Iterable[RawMessage], target: Bag, keep: Callable[[RawMessage], object] | None = None
 ) -> Copied:
     """Write the messages of other bags that ``keep`` accepts into ``target``."""
     written = total = 0
@@ -104,9 +102,7 @@ def filter_bag(
         return write_whole(target, lambda outbag: copy_messages(inbag.read_raw(), outbag, keep))
 
 
-def write_whole(
-    target: PathLike, fill: Callable[[Bag], Copied], compression: str = Compression.NONE
-) -> Copied:
+def write_whole(target: PathLike, fill: Callable[[Bag], Copied], compression: str = Compression.NONE) -> Copied:
     """Write a new bag with ``fill`` and return its result; remove the bag if it fails."""
     part = Path(f"{os.fspath(target)}.part")
     try:

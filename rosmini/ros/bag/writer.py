@@ -167,11 +167,7 @@ class Writer:
         if self.compression != Compression.NONE:
             parts = [compress(b"".join(parts), self.compression)]
             length = len(parts[0])
-        fields = {
-            "compression": self.compression.encode(),
-            "op": bytes([OP_CHUNK]),
-            "size": u32.pack(size),
-        }
+        fields = {"compression": self.compression.encode(), "op": bytes([OP_CHUNK]), "size": u32.pack(size)}
         start = record_start(fields, length)
         chunk = Chunk(self._position, self._position + len(start), self.compression, length, size)
         entries = _fill(chunk, records)
@@ -283,11 +279,7 @@ class Writer:
 
     @staticmethod
     def _connection_record(connection: Connection) -> bytes:
-        fields = {
-            "conn": u32.pack(connection.id),
-            "op": bytes([OP_CONNECTION]),
-            "topic": connection.topic.encode(),
-        }
+        fields = {"conn": u32.pack(connection.id), "op": bytes([OP_CONNECTION]), "topic": connection.topic.encode()}
         return pack_record(fields, connection.raw)
 
 

@@ -10,13 +10,4 @@ from .creation import NewPackage, create_package, init_workspace
 from .findings import CatkinError, Finding
 from .workspace import Workspace
 
-__all__ = [
-    "CatkinError",
-    "Finding",
-    "NewPackage",
-    "Report",
-    "Workspace",
-    "create_package",
-    "init_workspace",
-    "make",
-]
+__all__ = ["CatkinError", "Finding", "NewPackage", "Report", "Workspace", "create_package", "init_workspace", "make"]

@@ -78,9 +78,7 @@ def make(
     report = Report()
     sources = _read(workspace, report)
     state = _load(workspace.build / STATE)
-    underlays = workspace.underlays(environ) or [
-        Path(each) for each in state["underlays"] if Path(each).is_dir()
-    ]
+    underlays = workspace.underlays(environ) or [Path(each) for each in state["underlays"] if Path(each).is_dir()]
     order = _ordered(sources, _wanted(sources, only, with_dependencies=with_dependencies))
     report.order = tuple(each.name for each in order)
     if order:
@@ -89,9 +87,7 @@ def make(
         say("\n".join([*noted, f"-- {RULE}"]))
     _lay_out(workspace, underlays)
     below = [folder for prefix in underlays for folder in package_folders(prefix)]
-    builder = _Builder(
-        workspace, PackageIndex([workspace.source, *below, *search_paths(environ)]), state, report, say
-    )
+    builder = _Builder(workspace, PackageIndex([workspace.source, *below, *search_paths(environ)]), state, report, say)
     for source in order:
         builder.build(source)
     for name in set(state["packages"]) - {each.name for each in sources}:  # removed from the workspace
@@ -143,9 +139,7 @@ def _wanted(sources: Sequence[Source], only: Iterable[str], *, with_dependencies
 def _ordered(sources: Sequence[Source], wanted: set[str]) -> list[Source]:
     """Return the packages to build, each after those that it needs. Raises `CatkinError` if there is a cycle."""
     by_name = {each.name: each for each in sources if each.name in wanted}
-    sorter = TopologicalSorter(
-        {name: sorted({*each.package.depends} & {*by_name}) for name, each in by_name.items()}
-    )
+    sorter = TopologicalSorter({name: sorted({*each.package.depends} & {*by_name}) for name, each in by_name.items()})
     try:
         sorter.prepare()
     except CycleError as error:
@@ -201,9 +195,7 @@ class _Builder:
         if any(each.is_error for each in findings):
             self.report.failed.append(name)
             return
-        counted = [
-            sum(each.kind == kind for each in project.definitions) for kind in ("msg", "srv", "action")
-        ]
+        counted = [sum(each.kind == kind for each in project.definitions) for kind in ("msg", "srv", "action")]
         if any(counted):
             actions = f", {counted[2]} actions" if counted[2] else ""
             self.say(f"-- {name}: {counted[0]} messages, {counted[1]} services{actions}")
@@ -213,9 +205,7 @@ class _Builder:
         self._make(source, packages, known, digest)
         self.report.built.append(name)
 
-    def _make(
-        self, source: Source, packages: Mapping[str, Path], known: Mapping[str, Any], digest: str
-    ) -> None:
+    def _make(self, source: Source, packages: Mapping[str, Path], known: Mapping[str, Any], digest: str) -> None:
         """Write the generated files of a package, and remove those that are no longer generated."""
         name, project = source.name, source.project
         assert project is not None  # noqa: S101 (checked by the caller)
@@ -231,9 +221,7 @@ class _Builder:
             made[python / name / "__init__.py"] = ""
         for word in project.reconfigurable:
             module, text = reconfigure.module(project.folder / word.text)
-            self.say(
-                f"Generating dynamic reconfigure files from {word.text}: {python / name / 'cfg' / module}.py"
-            )
+            self.say(f"Generating dynamic reconfigure files from {word.text}: {python / name / 'cfg' / module}.py")
             made |= dict.fromkeys((python / name / "__init__.py", python / name / "cfg/__init__.py"), "")
             made[python / name / "cfg" / f"{module}.py"] = text
         for package, folder in packages.items():
@@ -279,9 +267,7 @@ class _Builder:
         for word in project.message_packages:
             if word.text in self.index:
                 folder = self.index.path(word.text)
-                inputs += [
-                    folder / kind / each for kind in ("msg", "srv") for each in files.names_in(folder / kind)
-                ]
+                inputs += [folder / kind / each for kind in ("msg", "srv") for each in files.names_in(folder / kind)]
         for path in inputs:
             parts.update(b"\0" + str(path).encode(errors="surrogateescape") + b"\0")
             parts.update(files.read(path) if files.is_file(path) else b"")
@@ -298,10 +284,7 @@ def _load(path: Path) -> dict[str, Any]:
     try:
         found = json.loads(files.read(path))
         packages = {
-            str(name): {
-                "digest": str(each["digest"]),
-                "outputs": [str(output) for output in each["outputs"]],
-            }
+            str(name): {"digest": str(each["digest"]), "outputs": [str(output) for output in each["outputs"]]}
             for name, each in found["packages"].items()
         }
         return {"packages": packages, "underlays": [str(each) for each in found["underlays"]]}
@@ -312,12 +295,7 @@ def _load(path: Path) -> dict[str, Any]:
 def _write(path: Path, text: str, *, may_run: bool = False) -> None:
     """Write a file unless it already has this text."""
     data = text.encode(errors="surrogateescape")
-    if (
-        path.is_file()
-        and not path.is_symlink()
-        and path.stat().st_size == len(data)
-        and path.read_bytes() == data
-    ):
+    if path.is_file() and not path.is_symlink() and path.stat().st_size == len(data) and path.read_bytes() == data:
         return
     path.parent.mkdir(parents=True, exist_ok=True)
     path.unlink(missing_ok=True)

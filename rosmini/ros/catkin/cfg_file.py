@@ -40,9 +40,7 @@ UNDERSTOOD = (
 )
 
 _TYPES = {f"{kind}_t": kind for kind in KINDS}
-_SENSOR_LEVELS = Namespace(
-    "SensorLevels", {"RECONFIGURE_CLOSE": 3, "RECONFIGURE_STOP": 1, "RECONFIGURE_RUNNING": 0}
-)
+_SENSOR_LEVELS = Namespace("SensorLevels", {"RECONFIGURE_CLOSE": 3, "RECONFIGURE_STOP": 1, "RECONFIGURE_RUNNING": 0})
 
 
 @dataclass(frozen=True)
@@ -114,9 +112,7 @@ class _Reader:
             "math": dict(MATH),
             "sys": {"exit": self._functions["exit"]},
             "roslib": {"load_manifest": Function("load_manifest", lambda _: None)},
-            "__future__": dict.fromkeys(
-                ("print_function", "division", "absolute_import", "unicode_literals")
-            ),
+            "__future__": dict.fromkeys(("print_function", "division", "absolute_import", "unicode_literals")),
             "dynamic_reconfigure.parameter_generator": generators,
             "dynamic_reconfigure.parameter_generator_catkin": generators,
             "dynamic_reconfigure.msg": levels,

@@ -47,11 +47,7 @@ class Generator:
     def namespace(self) -> Namespace:
         """Return the result of ``ParameterGenerator()``."""
         members = self._members(self.tree, 0)
-        calls: dict[str, Callable[..., Any]] = {
-            "const": self._const,
-            "enum": self._enum,
-            "generate": self._generate,
-        }
+        calls: dict[str, Callable[..., Any]] = {"const": self._const, "enum": self._enum, "generate": self._generate}
         members |= {name: Function(f"gen.{name}", call) for name, call in calls.items()}
         return Namespace("gen", members)
 
@@ -90,19 +86,11 @@ class Generator:
         return {**made, "id": number, "parent": parent, "parameters": [], "groups": [], **self._place()}
 
     def _parameter(
-        self,
-        name: Any,
-        kind: Any,
-        level: Any,
-        description: Any,
-        limits: tuple[Any, Any, Any],
-        edit_method: Any,
+        self, name: Any, kind: Any, level: Any, description: Any, limits: tuple[Any, Any, Any], edit_method: Any
     ) -> dict[str, Any]:
         _check_name("parameter", name)
         _texts(f"the parameter {name}", type=kind, description=description, edit_method=edit_method)
-        self._budget.spend(
-            sum(len(each) for each in (*limits, description, edit_method) if isinstance(each, str))
-        )
+        self._budget.spend(sum(len(each) for each in (*limits, description, edit_method) if isinstance(each, str)))
         if name == "groups":
             raise ValueError("a parameter cannot be named groups: configurations have their groups there")
         if type(level) is not int or not 0 <= level < 2**32:
@@ -117,9 +105,7 @@ class Generator:
             raise ValueError(f"the minimum of {name}, {made.min!r}, is above its maximum, {made.max!r}")
         limited = made.clamp(made.default)
         if limited != made.default:
-            note = (
-                f"the default of {name}, {made.default!r}, is not in its range, {made.min!r} ... {made.max!r}"
-            )
+            note = f"the default of {name}, {made.default!r}, is not in its range, {made.min!r} ... {made.max!r}"
             self.notes.append((f"{note}: servers begin with {limited!r}", self.line))
             made = replace(made, default=limited)
         return {**made.as_dict(), **self._place(), **_cpp(kind)}
@@ -155,9 +141,7 @@ class Generator:
     def _generate(self, pkgname: str, nodename: str, name: str) -> int:
         _texts("generate()", package=pkgname, node=nodename, name=name)
         if self.generated is not None:
-            raise ValueError(
-                f"generate() was called before, in line {self.generated[1]}: a file makes one module"
-            )
+            raise ValueError(f"generate() was called before, in line {self.generated[1]}: a file makes one module")
         if not _NAME.match(name):
             raise ValueError(f"a module cannot be named {name!r}")
         self.generated = (name, self.line)
@@ -167,9 +151,7 @@ class Generator:
         """Record a name. Raises ``ValueError`` if it is a duplicate, or if there are too many."""
         if (what, name) in self._seen:
             first = self._seen[what, name]
-            raise ValueError(
-                f"the {what} {name} is there already, in line {first}: give each a name of its own"
-            )
+            raise ValueError(f"the {what} {name} is there already, in line {first}: give each a name of its own")
         self._seen[what, name] = self.line
         if len(self._seen) > MAX_ITEMS:
             raise ValueError(f"more than {MAX_ITEMS} parameters, groups and constants")
@@ -198,6 +180,4 @@ def _check_name(what: str, name: Any) -> None:
 def _check_quotes(description: str) -> None:
     """Refuse quotes as the real generator does: a file that contains them works on no robot."""
     if '"' in description or "'" in description:
-        raise ValueError(
-            f"the description of a constant or enumeration cannot have quotes: {description}"[:200]
-        )
+        raise ValueError(f"the description of a constant or enumeration cannot have quotes: {description}"[:200])

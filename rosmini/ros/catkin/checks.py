@@ -35,9 +35,7 @@ def read(folder: Path) -> tuple[Package | None, Project | None, list[Finding]]:
         if package.is_metapackage:
             hint = f"a metapackage needs one with catkin_metapackage(): {CMAKE} is missing"
             return package, None, [warning(hint, package.manifest)]
-        message = (
-            f"the package has no {CMAKE}; `catkin_create_pkg` makes one, or put CATKIN_IGNORE into the folder"
-        )
+        message = f"the package has no {CMAKE}; `catkin_create_pkg` makes one, or put CATKIN_IGNORE into the folder"
         return package, None, [Finding(message, package.manifest)]
     try:
         project = read_project(folder)
@@ -63,9 +61,7 @@ def check(package: Package, project: Project, index: PackageIndex) -> list[Findi
         *check_reconfigurable(project),
         *_not_here(project),
     ]
-    return sorted(
-        set(found), key=lambda each: (not each.is_error, str(each.file), each.line or 0, each.message)
-    )
+    return sorted(set(found), key=lambda each: (not each.is_error, str(each.file), each.line or 0, each.message))
 
 
 def _depends(root: Element, tags: Iterable[str]) -> dict[str, int]:
@@ -83,17 +79,13 @@ def _names(package: Package, project: Project, root: Element) -> Iterator[Findin
     name = root.find("name")
     line = name.line if name is not None else root.line
     if not GOOD_NAME.match(package.name):
-        rule = (
-            "begin with a lower case letter, and have only lower case letters, digits, underscores and dashes"
-        )
+        rule = "begin with a lower case letter, and have only lower case letters, digits, underscores and dashes"
         yield warning(f"the package name {package.name!r} breaks the naming conventions: it should {rule}",
                       package.manifest, line)  # fmt: skip
     if project.name is None:
         yield Finding(f"project({package.name}) is missing", project.path, 1)
     elif project.name.text != package.name:
-        message = (
-            f"this is project({project.name.text}), but the package is named {package.name!r} in {MANIFEST}"
-        )
+        message = f"this is project({project.name.text}), but the package is named {package.name!r} in {MANIFEST}"
         yield Finding(message, project.path, project.name.line)
 
 
@@ -119,9 +111,7 @@ def _components(project: Project, root: Element, index: PackageIndex) -> Iterato
     for word in project.components:
         if word.text not in build:
             hint = nearest(word.text, build) or f"add <build_depend>{word.text}</build_depend> to {manifest}"
-            message = (
-                f"{word.text} is a component of find_package(), but {MANIFEST} does not need it for building"
-            )
+            message = f"{word.text} is a component of find_package(), but {MANIFEST} does not need it for building"
             yield warning(f"{message}; {hint}", project.path, word.line)
         if word.text not in known:
             hint = nearest(word.text, known) or "is it on ROS_PACKAGE_PATH?"
@@ -129,9 +119,7 @@ def _components(project: Project, root: Element, index: PackageIndex) -> Iterato
     for word in project.exported:
         if word.text not in run:
             message = f"catkin_package() exports {word.text}, which is therefore needed to run: add "
-            yield Finding(
-                f"{message}<exec_depend>{word.text}</exec_depend> to {manifest}", project.path, word.line
-            )
+            yield Finding(f"{message}<exec_depend>{word.text}</exec_depend> to {manifest}", project.path, word.line)
 
 
 def _messages(project: Project, root: Element) -> Iterator[Finding]:
@@ -161,9 +149,7 @@ def _messages(project: Project, root: Element) -> Iterator[Finding]:
             message = f"generate_messages() depends on {word.text}, which is not a component of find_package(); add it"
             yield Finding(message, project.path, word.line)
         if word.text not in _depends(root, BUILD):
-            message = (
-                f"generate_messages() depends on {word.text}: add <depend>{word.text}</depend> to {manifest}"
-            )
+            message = f"generate_messages() depends on {word.text}: add <depend>{word.text}</depend> to {manifest}"
             yield warning(message, project.path, word.line)
 
 
@@ -181,11 +167,7 @@ def _definition_files(project: Project) -> Iterator[Finding]:
         elif not files.is_file(path):
             strayed = [each for each in there if Path(each).name == path.name]
             hint = f"{strayed[0]} is in the wrong folder: move it to {definition.path}" if strayed else ""
-            hint = (
-                hint
-                or nearest(path.name, files.names_in(path.parent))
-                or f"make it, or take it out of {CMAKE}"
-            )
+            hint = hint or nearest(path.name, files.names_in(path.parent)) or f"make it, or take it out of {CMAKE}"
             yield Finding(f"there is no file {definition.path}; {hint}", project.path, definition.line)
     names = {Path(each).name for each in added}
     for each in there:
@@ -220,8 +202,6 @@ def nested(folder: Path) -> list[Finding]:
     for parent, names, inside in os.walk(folder):
         names[:] = sorted(name for name in names if not name.startswith("."))
         if MANIFEST in inside and Path(parent) != folder:
-            message = (
-                f"a package in the package {folder.name}, which is not found there: move it beside {folder}"
-            )
+            message = f"a package in the package {folder.name}, which is not found there: move it beside {folder}"
             found.append(warning(message, Path(parent, MANIFEST)))
     return found

@@ -20,13 +20,7 @@ MAX_FILE_LENGTH = 1_000_000
 MAX_VALUES_LENGTH = 1_000_000
 """Maximum number of characters in all values together: a variable can double its length with each command."""
 
-BLOCKS = {
-    "if": "endif",
-    "foreach": "endforeach",
-    "while": "endwhile",
-    "function": "endfunction",
-    "macro": "endmacro",
-}
+BLOCKS = {"if": "endif", "foreach": "endforeach", "while": "endwhile", "function": "endfunction", "macro": "endmacro"}
 """Commands that open a block, with those that close it."""
 
 _TOKEN = re.compile(
@@ -132,9 +126,7 @@ class Variables:
     def _spend(self, length: int, line: int) -> None:
         self._length += length
         if self._length > MAX_VALUES_LENGTH:
-            raise CMakeError(
-                f"the variables have more than {MAX_VALUES_LENGTH} characters together", self.path, line
-            )
+            raise CMakeError(f"the variables have more than {MAX_VALUES_LENGTH} characters together", self.path, line)
 
 
 def parse(text: str, path: str | Path = "CMakeLists.txt") -> Iterator[Command]:
@@ -167,9 +159,7 @@ def parse(text: str, path: str | Path = "CMakeLists.txt") -> Iterator[Command]:
 def _commands(text: str, path: str | Path) -> list[Command]:
     """Return the commands of a text, in order."""
     found: list[Command] = []
-    name: tuple[str, int] | None = (
-        None  # the command whose "(" is still missing, or whose arguments are being read
-    )
+    name: tuple[str, int] | None = None  # the command whose "(" is still missing, or whose arguments are being read
     depth = 0
     arguments: list[Argument] = []
     position, line = 0, 1

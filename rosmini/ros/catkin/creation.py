@@ -44,9 +44,7 @@ def create_package(new: NewPackage, where: Path, say: Callable[[str], object] = 
     """
     for name in (new.name, *new.dependencies):
         if not NAME.match(name):
-            raise CatkinError(
-                f"{name!r} cannot be the name of a package: letters, digits, _ and - can be in one"
-            )
+            raise CatkinError(f"{name!r} cannot be the name of a package: letters, digits, _ and - can be in one")
     if not VERSION.match(new.version):
         raise CatkinError(f'Package version "{new.version}" does not follow version conventions; write 1.2.3')
     if new.name in new.dependencies:
@@ -104,9 +102,7 @@ def manifest(new: NewPackage) -> str:
     for tag, names in (("build_depend", build), ("build_export_depend", build_export), ("exec_depend", run)):
         tags += [f"  <{tag}>{escape(name)}</{tag}>" for name in names]
     email = quoteattr(f"{user}@todo.todo")
-    maintainers = [
-        f"  <maintainer email={email}>{escape(name)}</maintainer>" for name in new.maintainers or (user,)
-    ]
+    maintainers = [f"  <maintainer email={email}>{escape(name)}</maintainer>" for name in new.maintainers or (user,)]
     return MANIFEST_XML.format(
         name=new.name,
         version=new.version,
@@ -115,9 +111,7 @@ def manifest(new: NewPackage) -> str:
         licenses="\n".join(f"  <license>{escape(each)}</license>" for each in new.licenses or ("TODO",)),
         authors="".join(f"  <author>{escape(each)}</author>\n" for each in new.authors),
         depends="\n".join(tags),
-        export="    <metapackage/>"
-        if new.is_metapackage
-        else "    <!-- for example, where plugins are described -->",
+        export="    <metapackage/>" if new.is_metapackage else "    <!-- for example, where plugins are described -->",
     )
 
 
@@ -127,17 +121,13 @@ def cmake_lists(new: NewPackage) -> str:
         return METAPACKAGE_CMAKE.format(name=new.name)
     names = sorted(new.dependencies)
     listed = "".join(f"  {name}\n" for name in names)
-    components = (
-        f"find_package(catkin REQUIRED COMPONENTS\n{listed})" if names else "find_package(catkin REQUIRED)"
-    )
+    components = f"find_package(catkin REQUIRED COMPONENTS\n{listed})" if names else "find_package(catkin REQUIRED)"
     types = [name for name in names if name.endswith(("_msgs", "_srvs"))] or ["std_msgs"]
     boost = " ".join(new.boost_components)
     return CMAKE_LISTS.format(
         name=new.name,
         components=components,
-        boost=f"find_package(Boost REQUIRED COMPONENTS {boost})"
-        if boost
-        else "# find_package(Boost REQUIRED)",
+        boost=f"find_package(Boost REQUIRED COMPONENTS {boost})" if boost else "# find_package(Boost REQUIRED)",
         types="\n".join(f"#   {name}" for name in types),
         exported=" ".join(name for name in names if name != "message_generation") or "other_package",
     )

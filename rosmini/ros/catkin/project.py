@@ -20,13 +20,7 @@ EARLY = {"generate_messages", "generate_dynamic_reconfigure_options", "catkin_py
 DECLARATIONS = {*KINDS, *EARLY, "catkin_install_python"}
 """Commands that generate something; one that cannot be followed is reported."""
 
-COMPILING = (
-    "add_executable",
-    "add_library",
-    "nodelet_add_library",
-    "cuda_add_executable",
-    "cuda_add_library",
-)
+COMPILING = ("add_executable", "add_library", "nodelet_add_library", "cuda_add_executable", "cuda_add_library")
 CATKIN_VARIABLES = {
     "CATKIN_PACKAGE_BIN_DESTINATION": "lib/{name}",
     "CATKIN_PACKAGE_LIB_DESTINATION": "lib",
@@ -187,22 +181,12 @@ def _add_definitions(project: Project, command: Command, words: Sequence[Word]) 
 
 def _install(project: Project, words: Sequence[Word], *, scripts: bool) -> None:
     """``install(PROGRAMS|FILES|DIRECTORY what... DESTINATION where ...)``."""
-    stops = (
-        "DESTINATION",
-        "PERMISSIONS",
-        "PATTERN",
-        "FILES_MATCHING",
-        "USE_SOURCE_PERMISSIONS",
-        "RENAME",
-        "OPTIONAL",
-    )
+    stops = ("DESTINATION", "PERMISSIONS", "PATTERN", "FILES_MATCHING", "USE_SOURCE_PERMISSIONS", "RENAME", "OPTIONAL")
     where = next(iter(_after(words, ("DESTINATION",), stops)), None)
     if not words or words[0].text not in ("PROGRAMS", "FILES", "DIRECTORY"):
         return
     if where is None:
-        project.findings.append(
-            Finding("DESTINATION is missing in this install", project.path, words[0].line)
-        )
+        project.findings.append(Finding("DESTINATION is missing in this install", project.path, words[0].line))
         return
     what = _after(words, (words[0].text,), stops)
     if scripts:

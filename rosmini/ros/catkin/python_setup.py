@@ -30,9 +30,7 @@ def python_packages(folder: Path) -> tuple[dict[str, Path], list[Finding]]:
     """
     path = folder / "setup.py"
     if not files.is_file(path):
-        return {}, [
-            Finding("catkin_python_setup() needs a setup.py, and there is none", folder / "CMakeLists.txt")
-        ]
+        return {}, [Finding("catkin_python_setup() needs a setup.py, and there is none", folder / "CMakeLists.txt")]
     try:
         tree = ast.parse(files.read(path, MAX_BYTES), str(path))
     except (OSError, SyntaxError, ValueError, RecursionError, MemoryError) as error:
@@ -53,9 +51,7 @@ def python_packages(folder: Path) -> tuple[dict[str, Path], list[Finding]]:
         found = {str(name): folder / _folder_of(str(name), dict(folders)) for name in list(names)}
     except (ValueError, TypeError, SyntaxError, RecursionError, MemoryError):
         line = given["packages"].lineno
-        return {}, [
-            warning("packages and package_dir are not names themselves, and setup.py is not run", path, line)
-        ]
+        return {}, [warning("packages and package_dir are not names themselves, and setup.py is not run", path, line)]
     findings = []
     top = folder.resolve()
     for name, where in sorted(found.items()):

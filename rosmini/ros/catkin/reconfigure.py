@@ -45,13 +45,9 @@ def check_reconfigurable(project: Project) -> Iterator[Finding]:
                 yield Finding(error.message, path, error.line)
                 continue
             if os.name != "nt" and not os.access(path, os.X_OK):
-                yield warning(
-                    f"may not be run, as a real catkin_make does: chmod +x {shlex.quote(str(path))}", path
-                )
+                yield warning(f"may not be run, as a real catkin_make does: chmod +x {shlex.quote(str(path))}", path)
             if found.name != path.stem:
-                message = (
-                    f"makes {found.name}Config, while CMake expects {path.stem}Config, as the file is named"
-                )
+                message = f"makes {found.name}Config, while CMake expects {path.stem}Config, as the file is named"
                 yield warning(message, path, found.line)
             for note, line in found.notes:
                 yield warning(note, path, line)

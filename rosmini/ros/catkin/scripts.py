@@ -62,14 +62,10 @@ def check_script(path: Path) -> Iterator[Finding]:
         yield from _check_first_line(first, path)
     elif data.startswith(b"\xef\xbb\xbf#!"):
         yield Finding(
-            "a byte order mark is before #!, so the system does not know how to run it; save as UTF-8",
-            path,
-            1,
+            "a byte order mark is before #!, so the system does not know how to run it; save as UTF-8", path, 1
         )
     elif path.suffix == ".py" or not data.startswith(b"\x7fELF"):
-        yield warning(
-            "the first line does not say how to run it; it should be #!/usr/bin/env python3", path, 1
-        )
+        yield warning("the first line does not say how to run it; it should be #!/usr/bin/env python3", path, 1)
     if os.name != "nt" and not os.access(path, os.X_OK):
         yield warning(f"may not be run, and rosrun will not find it: chmod +x {shlex.quote(str(path))}", path)
     if path.suffix == ".py" or b"python" in first:
@@ -85,9 +81,7 @@ def check_script(path: Path) -> Iterator[Finding]:
 
 def _check_first_line(first: bytes, path: Path) -> Iterator[Finding]:
     if first.endswith(b"\r"):
-        message = (
-            "the lines end as on Windows (CRLF), so the system looks for a program whose name ends in a CR"
-        )
+        message = "the lines end as on Windows (CRLF), so the system looks for a program whose name ends in a CR"
         yield Finding(f"{message}; convert the file: sed -i 's/\\r$//' {path}", path, 1)
         return
     words = first[2:].decode(errors="replace").split()
@@ -97,9 +91,7 @@ def _check_first_line(first: bytes, path: Path) -> Iterator[Finding]:
         message = f"a Python script is run by {program or 'nothing'!r}; the first line should be #!/usr/bin/env python3"
         yield Finding(message, path, 1)
     elif base.startswith("python2"):
-        yield warning(
-            "this asks for Python 2, which ROS Noetic does not use; write #!/usr/bin/env python3", path, 1
-        )
+        yield warning("this asks for Python 2, which ROS Noetic does not use; write #!/usr/bin/env python3", path, 1)
 
 
 def wrapper(path: Path) -> str:

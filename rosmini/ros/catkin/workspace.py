@@ -39,26 +39,18 @@ class Workspace:
         if source_space.is_dir() and not (base / MANIFEST).is_file():
             found._check()
             return found
-        missing = (
-            "" if source_space.is_dir() else f'The specified source space "{source_space}" does not exist\n'
-        )
+        missing = "" if source_space.is_dir() else f'The specified source space "{source_space}" does not exist\n'
         raise CatkinError(missing + found._what_is_wrong())
 
     def _what_is_wrong(self) -> str:
         if (self.base / MANIFEST).is_file():
             above = next((each.parent for each in self.base.parents if each.name == "src"), None)
-            where = (
-                f": cd {shlex.quote(str(above))}"
-                if above
-                else ", the folder above the src in which the package is"
-            )
+            where = f": cd {shlex.quote(str(above))}" if above else ", the folder above the src in which the package is"
             return f"{self.base} is a package; catkin_make is run in the workspace{where}"
         if self.base.name == "src" or any((each / MANIFEST).is_file() for each in self._folders()):
             parent = shlex.quote(str(self.base.parent))
             return f"{self.base} is a source space; run catkin_make in the folder above it: cd {parent}"
-        above = next(
-            (each for each in self.base.parents if (each / "src").is_dir() and each != Path("/usr")), None
-        )
+        above = next((each for each in self.base.parents if (each / "src").is_dir() and each != Path("/usr")), None)
         if above and ((above / "devel").is_dir() or (above / "src" / CMAKE).exists()):
             return f"the workspace is above: cd {shlex.quote(str(above))}"
         return f"a workspace has a folder src for its packages: mkdir -p {self.source}"
@@ -88,9 +80,7 @@ class Workspace:
         found, findings = [], []
         for each in crawl(self.source):
             if each.manifest != MANIFEST:
-                message = (
-                    "this is rosbuild's, which catkin does not build; a package of catkin has a package.xml"
-                )
+                message = "this is rosbuild's, which catkin does not build; a package of catkin has a package.xml"
                 findings.append(Finding(message, each.file, is_error=False))
             elif each.folder == self.source:
                 message = f"a package in place of the source space: packages are in folders of {self.source}"

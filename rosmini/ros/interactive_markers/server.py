@@ -92,17 +92,11 @@ class InteractiveMarkerServer:
         self.seq_num = 0
         self._states: dict[str, _State] = {}
         self._pending: dict[str, _Change] = {}
-        self.init_pub = node.publisher(
-            topic_ns + "/update_full", InteractiveMarkerInit, latch=True, queue_size=100
-        )
+        self.init_pub = node.publisher(topic_ns + "/update_full", InteractiveMarkerInit, latch=True, queue_size=100)
         self.update_pub = node.publisher(topic_ns + "/update", InteractiveMarkerUpdate, queue_size=100)
         self.update_pub.expect_nobody()
         self.feedback_sub = node.subscriber(
-            topic_ns + "/feedback",
-            InteractiveMarkerFeedback,
-            self.processFeedback,
-            queue_size=q_size,
-            numpy=False,
+            topic_ns + "/feedback", InteractiveMarkerFeedback, self.processFeedback, queue_size=q_size, numpy=False
         )
         self._timer = node.timer(_KEEP_ALIVE, self.keepAlive, reset=True)
         self.publishInit()
@@ -233,9 +227,7 @@ class InteractiveMarkerServer:
     def publishInit(self) -> None:
         """Publish all markers, so that late clients receive them."""
         markers = [state.marker for state in list(self._states.values())]
-        self.init_pub.publish(
-            InteractiveMarkerInit(server_id=self.server_id, seq_num=self.seq_num, markers=markers)
-        )
+        self.init_pub.publish(InteractiveMarkerInit(server_id=self.server_id, seq_num=self.seq_num, markers=markers))
 
     def _publish(self, update: Any) -> None:
         update.server_id, update.seq_num = self.server_id, self.seq_num

@@ -134,9 +134,7 @@ class DirectWire:
         except _FAILURES as error:
             raise TransportException(f"no answer from {uri}: {_reason(error)}") from error
         if not isinstance(answer, list) or len(answer) != 3:
-            raise TransportException(
-                f"{uri} answered {method} with {str(answer)[:80]}, which no ROS program does"
-            )
+            raise TransportException(f"{uri} answered {method} with {str(answer)[:80]}, which no ROS program does")
         return answer
 
     def probe_service(self, uri: str, header: dict[str, str]) -> dict[str, str]:
@@ -145,9 +143,7 @@ class DirectWire:
 
         try:
             parts = urlsplit(uri)
-            with socket.create_connection(
-                (parts.hostname or "", parts.port or 0), timeout=self._node_s
-            ) as wire:
+            with socket.create_connection((parts.hostname or "", parts.port or 0), timeout=self._node_s) as wire:
                 wire.sendall(encode_header(header))
                 with wire.makefile("rb") as incoming:
                     (length,) = struct.unpack("<I", incoming.read(4))
@@ -206,9 +202,7 @@ def _complaint(uri: str, cause: BaseException) -> str:
         host = shown(urlsplit(uri).hostname or "")
         return f"{silent}the host name {host} does not resolve on this machine: add it to /etc/hosts here, or {another}"
     if isinstance(cause, TimeoutError):
-        return (
-            f"{silent}{_reason(cause)}. It hangs, or the way there is blocked: start it again, or {another}"
-        )
+        return f"{silent}{_reason(cause)}. It hangs, or the way there is blocked: start it again, or {another}"
     if isinstance(cause, OSError):
         return f"{silent}{_reason(cause)}. Start it with `rosmini roscore`, or {another}"
     if isinstance(cause, xmlrpc.client.ProtocolError):

@@ -5,14 +5,7 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
-from rosmini.core.errors import (
-    DefinitionError,
-    IllegalName,
-    RosminiError,
-    UnknownPackage,
-    UnknownType,
-    nearest,
-)
+from rosmini.core.errors import DefinitionError, IllegalName, RosminiError, UnknownPackage, UnknownType, nearest
 from rosmini.core.time import TVal
 from rosmini.msgs import message_class, service_class
 from rosmini.msgs.definition import BUILTIN_TYPES
@@ -144,9 +137,7 @@ def without(value: Any, kind: str | None, *, strings: bool, arrays: bool) -> Any
     if not isinstance(value, Message):
         return value
     kinds = dict(zip(value.__slots__, value._slot_types, strict=True))
-    values = {
-        name: without(getattr(value, name), kinds[name], strings=strings, arrays=arrays) for name in kinds
-    }
+    values = {name: without(getattr(value, name), kinds[name], strings=strings, arrays=arrays) for name in kinds}
     changed = {name: "string" for name in kinds if isinstance(values[name], str)}
     return Shown(values, kinds | changed)
 

@@ -59,6 +59,4 @@ def _field(value: Any, name: str) -> Any:
 @cache
 def _names(cls: Any) -> frozenset[str]:
     """Return the attributes of a message that an expression may read."""
-    return frozenset(
-        {"_type"} | {each.name for each in cls._spec.fields} | {each.name for each in cls._spec.constants}
-    )
+    return frozenset({"_type"} | {each.name for each in cls._spec.fields} | {each.name for each in cls._spec.constants})

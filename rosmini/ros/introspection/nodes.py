@@ -76,9 +76,7 @@ def describe(peers: Peers, name: str) -> Description:
     master = peers.ask_as(ID)
     state = master.ask("getSystemState")
     kinds = dict(master.ask("getPublishedTopics", "/"))
-    published, subscribed, services = (
-        sorted(item for item, holders in part if name in holders) for part in state
-    )
+    published, subscribed, services = (sorted(item for item, holders in part if name in holders) for part in state)
 
     def typed(topics: list[str]) -> tuple[tuple[str, str], ...]:
         return tuple((topic, kinds.get(topic, "unknown type")) for topic in topics)

@@ -90,8 +90,7 @@ class Weight(NamedTuple):
 
     def __str__(self) -> str:
         unit, name = next(
-            ((size, name) for size, name in ((1, "B"), (1000, "KB")) if self.rate < 1000 * size),
-            (1_000_000, "MB"),
+            ((size, name) for size, name in ((1, "B"), (1000, "KB")) if self.rate < 1000 * size), (1_000_000, "MB")
         )
         rate, mean, smallest, largest = (f"{value / unit:.2f}{name}" for value in self[:4])
         return f"average: {rate}/s\n\tmean: {mean} min: {smallest} max: {largest} window: {self.window}"
@@ -113,9 +112,7 @@ class Sizes:
         if len(sizes) < 2 or now <= self._heard[0][0]:
             return None
         total = sum(sizes)
-        return Weight(
-            total / (now - self._heard[0][0]), total / len(sizes), min(sizes), max(sizes), len(sizes)
-        )
+        return Weight(total / (now - self._heard[0][0]), total / len(sizes), min(sizes), max(sizes), len(sizes))
 
 
 def rate_text(found: Statistics) -> str:
@@ -137,11 +134,7 @@ def rate_table(found: Mapping[str, Statistics]) -> str:
     """Return the table of ``rostopic hz`` for several topics."""
     header = ("topic", "rate", "min_delta", "max_delta", "std_dev", "window")
     rows = [
-        (
-            topic,
-            *(f"{value:.4}" for value in (one.rate, one.smallest, one.largest, one.deviation)),
-            str(one.window),
-        )
+        (topic, *(f"{value:.4}" for value in (one.rate, one.smallest, one.largest, one.deviation)), str(one.window))
         for topic, one in found.items()
     ]
     widths = [max(map(len, column)) for column in zip(header, *rows, strict=True)]

@@ -56,9 +56,7 @@ def topics(peers: Peers) -> Topics:
     """Return all topics."""
     state = peers.ask_as(ID).ask("getSystemState")
     known = dict(types(peers))
-    sides = (
-        [Topic(name, known.get(name, UNKNOWN), tuple(held)) for name, held in side] for side in state[:2]
-    )
+    sides = ([Topic(name, known.get(name, UNKNOWN), tuple(held)) for name, held in side] for side in state[:2])
     return Topics(*map(tuple, sides))
 
 
@@ -74,9 +72,7 @@ def by_host(peers: Peers, found: Topics) -> dict[str, Topics]:
     hosts = {node: host_of(master.find("lookupNode", node) or "") for node in sorted(nodes)}
 
     def on(host: str, side: Sequence[Topic]) -> tuple[Topic, ...]:
-        held = [
-            Topic(each.name, each.type, tuple(n for n in each.nodes if hosts[n] == host)) for each in side
-        ]
+        held = [Topic(each.name, each.type, tuple(n for n in each.nodes if hosts[n] == host)) for each in side]
         return tuple(each for each in held if each.nodes)
 
     return {host: Topics(*(on(host, side) for side in found)) for host in sorted(set(hosts.values()))}

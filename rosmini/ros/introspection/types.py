@@ -65,9 +65,7 @@ class Kind(NamedTuple):
         service = known.service_definition(kind)
         halves = (service.request, service.response)
         if raw:
-            return "---\n".join(
-                half.text if half.text.endswith("\n") else f"{half.text}\n" for half in halves
-            )
+            return "---\n".join(half.text if half.text.endswith("\n") else f"{half.text}\n" for half in halves)
         return "---\n".join(tree(half, known.definition) for half in halves)
 
     def what_next(self, short: str) -> str:

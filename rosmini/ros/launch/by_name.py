@@ -32,19 +32,14 @@ def plan_of(*words: str | os.PathLike[str], lenient: bool = False, **args: Any) 
     """
     texts = [os.fspath(word) for word in words]
     given = dict(word.split(":=", 1) for word in texts if is_remapping(word))
-    given |= {
-        name: str(value).lower() if isinstance(value, bool) else str(value) for name, value in args.items()
-    }
+    given |= {name: str(value).lower() if isinstance(value, bool) else str(value) for name, value in args.items()}
     index = PackageIndex()
     files = find_file([word for word in texts if not is_remapping(word)], index)
     return read(*files, args=given, packages=index, lenient=lenient)
 
 
 def roslaunch(
-    *words: str | os.PathLike[str],
-    graph: Graph | None = None,
-    console: dict[str, Any] | None = None,
-    **args: Any,
+    *words: str | os.PathLike[str], graph: Graph | None = None, console: dict[str, Any] | None = None, **args: Any
 ) -> Launch:
     """Start all nodes of launch files in one graph and return at once; they run while the graph is driven.
 

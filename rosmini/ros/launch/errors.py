@@ -40,11 +40,7 @@ class LaunchError(MarkupError):
     """A launch file is invalid at ``file``, line ``line``; ``missing`` lists what was not found, if anything."""
 
     def __init__(
-        self,
-        message: str,
-        file: str | Path | None = None,
-        line: int | None = None,
-        missing: Sequence[Missing] = (),
+        self, message: str, file: str | Path | None = None, line: int | None = None, missing: Sequence[Missing] = ()
     ) -> None:
         super().__init__(message, file, line)
         self.missing = tuple(missing)
@@ -64,7 +60,5 @@ def not_there(missing: Sequence[Missing]) -> LaunchError:
         lines += [f"    {each.name}  ({each.place})" for each in found[:MAX_SHOWN]]
         if len(found) > MAX_SHOWN:
             lines.append(f"    and {len(found) - MAX_SHOWN} more")
-    hints = dict.fromkeys(
-        line for each in missing for line in str(each).splitlines() if "did you mean" in line
-    )
+    hints = dict.fromkeys(line for each in missing for line in str(each).splitlines() if "did you mean" in line)
     return LaunchError("\n".join([*lines, *list(hints)[:5]]), missing=missing)

@@ -94,11 +94,8 @@ def missing_programs(plan: Plan, packages: PackageIndex, environ: Mapping[str, s
             program(node, packages, environ)
         except ScriptError as error:
             found.setdefault(
-                ("executable", node.executable),
-                Missing("executable", node.executable, node.place, str(error)),
+                ("executable", node.executable), Missing("executable", node.executable, node.place, str(error))
             )
         except RosminiError as error:
-            found.setdefault(
-                ("package", node.package), Missing("package", node.package, node.place, str(error))
-            )
+            found.setdefault(("package", node.package), Missing("package", node.package, node.place, str(error)))
     return list(found.values())

@@ -45,9 +45,7 @@ MAX_NAME_LENGTH = 4096
 class Loading:
     """A plan that is being read; ``at`` is the current file."""
 
-    def __init__(
-        self, packages: PackageIndex, environ: Mapping[str, str], anonymous: Callable[[str], str]
-    ) -> None:
+    def __init__(self, packages: PackageIndex, environ: Mapping[str, str], anonymous: Callable[[str], str]) -> None:
         self.packages = packages
         self.plan = Plan()
         self.at = LaunchFile("")
@@ -108,10 +106,7 @@ class Loading:
         space = self.space(element, scope)
         inside = scope.child(space)
         self.clear(
-            element,
-            scope,
-            inside.namespace if node is None else inside.full(node) + "/",
-            named=bool(space or node),
+            element, scope, inside.namespace if node is None else inside.full(node) + "/", named=bool(space or node)
         )
         return inside
 
@@ -137,9 +132,7 @@ class Loading:
         """Add a warning; ``name`` may be a misspelling of one of the ``known`` names."""
         if self._may_warn():
             hint = nearest(name, known)
-            self.plan.warnings.append(
-                f"{element.path}:{element.line}: {message}{f'; {hint}' if hint else ''}"
-            )
+            self.plan.warnings.append(f"{element.path}:{element.line}: {message}{f'; {hint}' if hint else ''}")
 
     def _may_warn(self) -> bool:
         """Return True if another warning may be listed; otherwise count it."""
@@ -175,20 +168,14 @@ class Loading:
             raise ParameterError(f"more than {MAX_SETTINGS} parameters are set")
         settings = self.plan.settings
         before = settings.get(name)
-        overrode = (
-            () if before is None else (*before.overrode, replace(before, overrode=()))[-MAX_OVERRIDDEN:]
-        )
+        overrode = () if before is None else (*before.overrode, replace(before, overrode=()))[-MAX_OVERRIDDEN:]
         if len(name) > MAX_NAME_LENGTH:
-            raise ParameterError(
-                f"a parameter's name of {len(name)} characters; {MAX_NAME_LENGTH} are allowed"
-            )
+            raise ParameterError(f"a parameter's name of {len(name)} characters; {MAX_NAME_LENGTH} are allowed")
         setting = Setting(name, checked(name, value), place, origin, overrode)
         above = namespace(name).rstrip("/")
         while above:
             if above in settings and self._may_warn():
-                self.plan.warnings.append(
-                    f"{place}: parameter [{name}] conflicts with parent parameter [{above}]"
-                )
+                self.plan.warnings.append(f"{place}: parameter [{name}] conflicts with parent parameter [{above}]")
             above = namespace(above).rstrip("/")
         settings[name] = setting
         self.at.settings.append(setting)

@@ -19,19 +19,7 @@ if TYPE_CHECKING:
     from .scope import Scope
 
 NODE = (
-    *(
-        "pkg",
-        "type",
-        "machine",
-        "name",
-        "args",
-        "output",
-        "respawn",
-        "respawn_delay",
-        "cwd",
-        "ns",
-        "clear_params",
-    ),
+    *("pkg", "type", "machine", "name", "args", "output", "respawn", "respawn_delay", "cwd", "ns", "clear_params"),
     *("launch-prefix", "required"),
 )
 TEST = (*NODE, "test-name", "time-limit", "retry")
@@ -55,9 +43,7 @@ def read_node(loading: Loading, element: Element, scope: Scope) -> NodePlan | Te
             f'ns="{name.rpartition("/")[0]}"'
         )
     if not is_legal_name(name):
-        loading.warn(
-            element, f"illegal <node> name '{name}' (http://wiki.ros.org/Names): other tools will not like it"
-        )
+        loading.warn(element, f"illegal <node> name '{name}' (http://wiki.ros.org/Names): other tools will not like it")
     inside = loading.scope_inside(element, scope, name)
     _children(loading, element, scope, inside, name)
     loading.count_copies(element, len(inside.remappings) + len(inside.environment))
@@ -118,16 +104,7 @@ def _test_options(loading: Loading, element: Element, scope: Scope) -> dict[str,
 def _options(loading: Loading, element: Element, scope: Scope) -> dict[str, Any]:
     machine, args, output, respawn, delay, cwd, prefix, required = (
         loading.optional(element, scope, name)
-        for name in (
-            "machine",
-            "args",
-            "output",
-            "respawn",
-            "respawn_delay",
-            "cwd",
-            "launch-prefix",
-            "required",
-        )
+        for name in ("machine", "args", "output", "respawn", "respawn_delay", "cwd", "launch-prefix", "required")
     )
     options = {
         "respawn": flag(element, "respawn", respawn),
@@ -167,9 +144,7 @@ def read_machine(loading: Loading, element: Element, scope: Scope) -> Machine:
     loading.check_attributes(element, MACHINE)
     for child in element.children:
         if child.tag == "env":
-            raise child.error(
-                "<machine>: <env> tag is not supported since ROS Fuerte. Please use env-loader instead"
-            )
+            raise child.error("<machine>: <env> tag is not supported since ROS Fuerte. Please use env-loader instead")
         loading.warn(child, f"unrecognized '{child.tag}' tag in <machine> tag")
     default = (loading.optional(element, scope, "default") or "false").lower()
     if default not in ("true", "false", "never"):
@@ -182,9 +157,7 @@ def read_machine(loading: Loading, element: Element, scope: Scope) -> Machine:
         raise element.error("<machine>: 'timeout' cannot be empty")
     password = loading.optional(element, scope, "password") or ""
     if password:
-        loading.warn(
-            element, "a password in a launch file is read by everybody who reads the file: use SSH keys"
-        )
+        loading.warn(element, "a password in a launch file is read by everybody who reads the file: use SSH keys")
     return Machine(
         name=loading.required(element, scope, "name"),
         address=loading.required(element, scope, "address"),

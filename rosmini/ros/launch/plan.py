@@ -107,13 +107,7 @@ class Machine:
         """True if its address is this machine's."""
         import socket
 
-        return self.address in (
-            "localhost",
-            "127.0.0.1",
-            "::1",
-            socket.gethostname(),
-            os.environ.get("ROS_IP"),
-        )
+        return self.address in ("localhost", "127.0.0.1", "::1", socket.gethostname(), os.environ.get("ROS_IP"))
 
 
 @dataclass(frozen=True)
@@ -206,9 +200,7 @@ class Plan:
 
     def overridden(self) -> list[Setting]:
         """Return the settings that overrode another value."""
-        return [
-            each for each in self.settings.values() if any(old.value != each.value for old in each.overrode)
-        ]
+        return [each for each in self.settings.values() if any(old.value != each.value for old in each.overrode)]
 
     def dump(self) -> str:
         """Return the output of `roslaunch --dump-params`."""
@@ -227,9 +219,7 @@ class Plan:
             lines += [f"  {each.name}: {each.doc or 'undocumented'}" for each in required]
         if optional:
             lines.append("Optional Arguments:")
-            lines += [
-                f'  {each.name} (default "{each.default}"): {each.doc or "undocumented"}' for each in optional
-            ]
+            lines += [f'  {each.name} (default "{each.default}"): {each.doc or "undocumented"}' for each in optional]
         return "\n".join(lines)
 
     def summary(self, more: Mapping[str, Any] | None = None) -> str:
@@ -239,19 +229,13 @@ class Plan:
             lines += ["", "CLEAR PARAMETERS", *sorted(f" * {name}" for name in self.cleared)]
         values = {**(more or {}), **self.parameters}
         if values:
-            lines += [
-                "",
-                "PARAMETERS",
-                *sorted(f" * {name}: {shortened(value)}" for name, value in values.items()),
-            ]
+            lines += ["", "PARAMETERS", *sorted(f" * {name}: {shortened(value)}" for name, value in values.items())]
         if self.machines:
             lines += ["", "MACHINES", *sorted(f" * {name}" for name in self.machines)]
         lines += ["", "NODES"]
         for space in sorted({node.namespace for node in self.nodes}):
             lines.append(f"  {space}")
-            lines += sorted(
-                f"    {node.name} ({node.executable})" for node in self.nodes if node.namespace == space
-            )
+            lines += sorted(f"    {node.name} ({node.executable})" for node in self.nodes if node.namespace == space)
         return "\n".join(lines)
 
     def text(self) -> str:
@@ -262,9 +246,7 @@ class Plan:
             lines += _tree(root, 0)
         if self.settings:
             lines.append("parameters:")
-            lines += [
-                f"  {name}: {shortened(each.value, 60)}" for name, each in sorted(self.settings.items())
-            ]
+            lines += [f"  {name}: {shortened(each.value, 60)}" for name, each in sorted(self.settings.items())]
         overrode = [
             f"  {each.name}: {shortened(each.value)} ({base(each.place)}) instead of "
             + ", ".join(f"{shortened(old.value)} ({base(old.place)})" for old in each.overrode)
@@ -272,10 +254,7 @@ class Plan:
         ]
         if overrode:
             lines += ["overridden, the last setting wins:", *sorted(overrode)]
-        for title, found in (
-            ("warnings:", self.warnings),
-            ("missing:", [f"{m.kind} {m.name}" for m in self.missing]),
-        ):
+        for title, found in (("warnings:", self.warnings), ("missing:", [f"{m.kind} {m.name}" for m in self.missing])):
             if found:
                 lines += [title, *(f"  {each}" for each in found)]
         return "\n".join(lines)

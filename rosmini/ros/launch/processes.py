@@ -155,13 +155,9 @@ def _spawn(spec: ProcessSpec, output: IO[bytes] | None) -> subprocess.Popen[byte
     options: dict[str, Any] = {"start_new_session": True}
     if not ON_POSIX:
         options = {"creationflags": getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0)}
-    return subprocess.Popen(
-        list(spec.words), stdout=output, env=dict(spec.environ), cwd=spec.folder, **options
-    )
+    return subprocess.Popen(list(spec.words), stdout=output, env=dict(spec.environ), cwd=spec.folder, **options)
 
 
-def environment(
-    environ: Mapping[str, str], more: Sequence[tuple[str, str]], namespace: str
-) -> dict[str, str]:
+def environment(environ: Mapping[str, str], more: Sequence[tuple[str, str]], namespace: str) -> dict[str, str]:
     """Return the environment of a node: its settings take precedence over the launcher's."""
     return {**environ, "ROS_NAMESPACE": namespace.rstrip("/") or "/", **dict(more)}

@@ -97,9 +97,7 @@ def _counted() -> Callable[[str], str]:
 class Reader(Loading):
     """Reads files into one plan."""
 
-    def __init__(
-        self, packages: PackageIndex, environ: Mapping[str, str], anonymous: Callable[[str], str]
-    ) -> None:
+    def __init__(self, packages: PackageIndex, environ: Mapping[str, str], anonymous: Callable[[str], str]) -> None:
         super().__init__(packages, environ, anonymous)
         self._open: list[LaunchFile] = []
         self._read = 0
@@ -191,18 +189,14 @@ class Reader(Loading):
         elif default is not None:
             scope.args.setdefault(name, default)
 
-    def _arg(
-        self, element: Element, scope: Scope, known: Container[str]
-    ) -> tuple[str, str | None, str | None, str]:
+    def _arg(self, element: Element, scope: Scope, known: Container[str]) -> tuple[str, str | None, str | None, str]:
         self.check_attributes(element, ("name", "value", "default", "doc"))
         name = self.required(element, scope, "name")
         if "value" in element.attributes and "default" in element.attributes:
             raise element.error("<arg> tag must have one and only one of value/default")
         value, doc = (self.optional(element, scope, each) for each in ("value", "doc"))
         # like ROS, resolve the default even if a value is given
-        default = (
-            element.attributes.get("default") if name in known else self.optional(element, scope, "default")
-        )
+        default = element.attributes.get("default") if name in known else self.optional(element, scope, "default")
         return name, value, default, doc or ""
 
     def include(self, element: Element, scope: Scope) -> None:
@@ -213,9 +207,7 @@ class Reader(Loading):
         outside = scope.child()
         given = self._given(element, outside, dict(scope.args) if takes_all else {}, takes_all=takes_all)
         space = self.space(element, scope)
-        inside = outside.included(
-            path, space, given, at=f"{element.path}:{element.line}", takes_all=takes_all
-        )
+        inside = outside.included(path, space, given, at=f"{element.path}:{element.line}", takes_all=takes_all)
         inside.private = scope.private or {}
         self.clear(element, scope, inside.namespace, named=bool(space))
         if not is_file(path):
@@ -234,9 +226,7 @@ class Reader(Loading):
                 f"declares {', '.join(sorted(inside.declared)) or 'no args'}"
             )
 
-    def _given(
-        self, element: Element, outside: Scope, given: dict[str, str], *, takes_all: bool
-    ) -> dict[str, str]:
+    def _given(self, element: Element, outside: Scope, given: dict[str, str], *, takes_all: bool) -> dict[str, str]:
         """Return the arguments that an include passes on."""
         seen: set[str] = set()
         for child in element.children:
@@ -252,9 +242,7 @@ class Reader(Loading):
                     raise child.error(f"arg '{name}' has already been declared")
                 seen.add(name)
                 if value is None and default is None:
-                    raise child.error(
-                        f"include args must have declared values: give arg '{name}' a value=\"...\""
-                    )
+                    raise child.error(f"include args must have declared values: give arg '{name}' a value=\"...\"")
                 if value is not None or name not in given:
                     given[name] = value if value is not None else str(default)
         return given
@@ -358,12 +346,7 @@ def files_named(index: PackageIndex, package: str, name: str) -> list[str]:
 def launch_files(index: PackageIndex, package: str) -> list[str]:
     """Return the names of all launch files in a package."""
     return sorted(
-        {
-            name
-            for _, _, names in os.walk(index.path(package))
-            for name in names
-            if name.endswith((".launch", ".test"))
-        }
+        {name for _, _, names in os.walk(index.path(package)) for name in names if name.endswith((".launch", ".test"))}
     )
 
 

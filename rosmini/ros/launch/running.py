@@ -131,9 +131,7 @@ class Launch:
         said = self._how_it_ended(made, returncode)
         node = made.node
         if node.required:
-            self._warn(
-                f"{RULE}\nREQUIRED process [{made.name}] has died!\n{said}\nInitiating shutdown!\n{RULE}"
-            )
+            self._warn(f"{RULE}\nREQUIRED process [{made.name}] has died!\n{said}\nInitiating shutdown!\n{RULE}")
             self.required_ended = made
             self._shut_down()
             return
@@ -192,9 +190,7 @@ class Launch:
 
     def state(self) -> RunState:
         """Return the state of all nodes."""
-        return RunState(
-            tuple((made.node.full_name, made.handle.poll()) for made in self.running), len(self.failed)
-        )
+        return RunState(tuple((made.node.full_name, made.handle.poll()) for made in self.running), len(self.failed))
 
 
 @dataclass(frozen=True)
@@ -211,9 +207,7 @@ class RunState:
         return shell_status(found) or int(self.failed > 0)
 
     def __str__(self) -> str:
-        return "\n".join(
-            f"{name}: {'running' if code is None else f'ended, {code}'}" for name, code in self.codes
-        )
+        return "\n".join(f"{name}: {'running' if code is None else f'ended, {code}'}" for name, code in self.codes)
 
 
 def set_parameters(plan: Plan, graph: Graph) -> None:
@@ -250,9 +244,7 @@ def in_graph(
         words = node.words(with_namespace=True)
         handle: LaneHandle
         if found.path is None:
-            handle = NodeHandle(
-                graph, NodeSpec(found, words, node.environment), lambda: shared, owns_console=False
-            )
+            handle = NodeHandle(graph, NodeSpec(found, words, node.environment), lambda: shared, owns_console=False)
         else:
             environ = tuple(environment({}, node.environment, node.namespace).items())
             spec = ScriptSpec(str(found.path), words, environ=environ)

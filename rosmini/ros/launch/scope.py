@@ -47,9 +47,7 @@ class Scope:
             takes_all=False,
         )
 
-    def included(
-        self, file: str, namespace: str | None, args: Mapping[str, str], *, at: str, takes_all: bool
-    ) -> Scope:
+    def included(self, file: str, namespace: str | None, args: Mapping[str, str], *, at: str, takes_all: bool) -> Scope:
         """Return the scope of a file that is included ``at`` a place: it has only the arguments passed to it."""
         made = self.child(namespace)
         made.file, made.included_at, made.takes_all = file, at, takes_all

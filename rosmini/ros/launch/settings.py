@@ -94,9 +94,7 @@ def read_rosparam(loading: Loading, element: Element, scope: Scope) -> None:
     """Load, dump or delete parameters (http://wiki.ros.org/roslaunch/XML/rosparam). Raises ``LaunchError``."""
     loading.check_attributes(element, ("command", "ns", "file", "param", "subst_value"))
     command = loading.optional(element, scope, "command") or "load"
-    param = join(
-        loading.optional(element, scope, "ns") or "", loading.optional(element, scope, "param") or ""
-    )
+    param = join(loading.optional(element, scope, "ns") or "", loading.optional(element, scope, "param") or "")
     param = param.removeprefix("~")
     file = loading.optional(element, scope, "file")
     substitutes = flag(element, "subst_value", loading.optional(element, scope, "subst_value"))
@@ -106,20 +104,11 @@ def read_rosparam(loading: Loading, element: Element, scope: Scope) -> None:
     elif command in ("dump", "delete"):
         _note(loading, element, command, full, file)
     else:
-        raise element.error(
-            f"<rosparam>: command must be 'load', 'dump', or 'delete', and this is {command!r}"
-        )
+        raise element.error(f"<rosparam>: command must be 'load', 'dump', or 'delete', and this is {command!r}")
 
 
 def _load(
-    loading: Loading,
-    element: Element,
-    scope: Scope,
-    full: str,
-    file: str | None,
-    *,
-    substitutes: bool,
-    named: bool,
+    loading: Loading, element: Element, scope: Scope, full: str, file: str | None, *, substitutes: bool, named: bool
 ) -> None:
     text, origin = element.written, ""
     if file is not None:

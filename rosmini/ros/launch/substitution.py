@@ -111,15 +111,11 @@ class Substitution:
         closed, rest = text[:end], text[end:]
         for inside in _OPEN.findall(closed):
             self._check(inside, text, element)
-        replaced = (
-            self._sub(_OPEN, lambda found: self._replace(found, scope, element), closed, element) + rest
-        )
+        replaced = self._sub(_OPEN, lambda found: self._replace(found, scope, element), closed, element) + rest
         replaced = self._sub(_FIND, lambda found: self._path(found[1], found[2], element), replaced, element)
         return self._counted(replaced, element)
 
-    def _sub(
-        self, what: re.Pattern[str], new: Callable[[re.Match[str]], str], text: str, element: Element
-    ) -> str:
+    def _sub(self, what: re.Pattern[str], new: Callable[[re.Match[str]], str], text: str, element: Element) -> str:
         """Replace like ``what.sub``, and stop before the text becomes too long."""
         size = 0
 
@@ -128,9 +124,7 @@ class Substitution:
             made = new(found)
             size += len(made)
             if size > MAX_LENGTH:
-                raise element.error(
-                    f"a text of more than {MAX_LENGTH} characters: see what is replaced in it"
-                )
+                raise element.error(f"a text of more than {MAX_LENGTH} characters: see what is replaced in it")
             return made
 
         return what.sub(counted, text)
@@ -140,9 +134,7 @@ class Substitution:
         if len(text) > MAX_LENGTH:
             raise element.error(f"a text of {len(text)} characters; {MAX_LENGTH} are allowed")
         if self._made > MAX_TOTAL_LENGTH:
-            raise element.error(
-                f"all texts with something replaced have more than {MAX_TOTAL_LENGTH} characters"
-            )
+            raise element.error(f"all texts with something replaced have more than {MAX_TOTAL_LENGTH} characters")
         return text
 
     def _check(self, inside: str, text: str, element: Element) -> None:
@@ -204,9 +196,7 @@ class Substitution:
             said = f"requires the '{name}' arg to be set: {way}"
         else:
             hint = self._hint(name, scope.args.keys() | scope.declared)
-            said = (
-                f'$(arg {name}): no <arg name="{name}"> stands before this line{f"; {hint}" if hint else ""}'
-            )
+            said = f'$(arg {name}): no <arg name="{name}"> stands before this line{f"; {hint}" if hint else ""}'
         self._lacks(element, "arg", name, said)
         return self._stand_in(name)
 
@@ -242,11 +232,7 @@ class Substitution:
 
     def _hint(self, name: str, known: Collection[str]) -> str:
         """Return a hint with similar names, for the first missing things only."""
-        return (
-            ""
-            if len(self._stand_ins) >= MAX_HINTS or _word(name) in self._stand_ins
-            else nearest(name, known)
-        )
+        return "" if len(self._stand_ins) >= MAX_HINTS or _word(name) in self._stand_ins else nearest(name, known)
 
     def _lacks(self, element: Element, kind: str, name: str, message: str) -> None:
         self.missing(Missing(kind, name, Place(element.path, element.line), message))

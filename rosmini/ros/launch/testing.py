@@ -72,9 +72,7 @@ class Results:
         for case in self.cases:
             written = ET.SubElement(root, "testcase", classname=case.classname, name=case.name)
             if case.kind:
-                ET.SubElement(
-                    written, case.kind, message=case.text.strip().rpartition("\n")[2]
-                ).text = case.text
+                ET.SubElement(written, case.kind, message=case.text.strip().rpartition("\n")[2]).text = case.text
         Path(file).parent.mkdir(parents=True, exist_ok=True)
         ET.ElementTree(root).write(file, encoding="utf-8", xml_declaration=True)
 

@@ -45,18 +45,14 @@ def static_findings(plan: Plan, packages: PackageIndex, environ: Mapping[str, st
         where: list[str] = []
         for each in missing:
             where.append(f"{each.kind} {each.name} ({each.place})")
-            where += [
-                f" {line}" for line in str(each).splitlines() if "did you mean" in line or "chmod" in line
-            ]
+            where += [f" {line}" for line in str(each).splitlines() if "did you mean" in line or "chmod" in line]
         yield Finding(
             "launch_missing", "ERROR", "The launch file names what is not there:", tuple(where),
             "A package belongs below a folder of ROS_PACKAGE_PATH; a script into the folder scripts, with its run bit.",
         )  # fmt: skip
     odd = tuple(plan.warnings)
     if odd:
-        yield Finding(
-            "launch_warnings", "WARNING", "The launch file says what has no effect, or another one:", odd
-        )
+        yield Finding("launch_warnings", "WARNING", "The launch file says what has no effect, or another one:", odd)
     elsewhere = tuple(
         f"{node.place}: {on_machine(plan, node)}"
         for node in plan.all_nodes()

@@ -68,9 +68,7 @@ class Addresses(NamedTuple):
         does not resolve, ``ConnectionRefusedError`` if no process listens.
         """
         if isinstance(reason, ConnectionRefusedError):
-            ended = (
-                "it has been shut down, or it was killed (`rosnode cleanup` takes it off the Master's list)"
-            )
+            ended = "it has been shut down, or it was killed (`rosnode cleanup` takes it off the Master's list)"
             if self.is_alone:
                 return f"No node listens there: {ended}"
             if is_loopback(host):
@@ -130,9 +128,7 @@ HERE = Addresses(MASTER_URI, LOCALHOST, LOOPBACK)
 """Addresses of a process without network settings: only this machine can reach it."""
 
 
-def addresses(
-    environ: Mapping[str, str] | None = None, arguments: Mapping[str, str] | None = None
-) -> Addresses:
+def addresses(environ: Mapping[str, str] | None = None, arguments: Mapping[str, str] | None = None) -> Addresses:
     """Return the addresses of a process.
 
     ``environ`` has ``ROS_MASTER_URI``, ``ROS_HOSTNAME`` and ``ROS_IP`` (``os.environ`` by default); ``arguments`` has

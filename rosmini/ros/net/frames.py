@@ -14,9 +14,7 @@ CHUNK = 64 * 1024
 LARGE = 1024 * 1024
 
 PROTOCOLS = {
-    **dict.fromkeys(
-        (b"GET ", b"POST", b"HEAD", b"PUT ", b"OPTI", b"HTTP"), "HTTP, as XML-RPC and browsers do"
-    ),
+    **dict.fromkeys((b"GET ", b"POST", b"HEAD", b"PUT ", b"OPTI", b"HTTP"), "HTTP, as XML-RPC and browsers do"),
     b"RTPS": "RTPS, as nodes of ROS 2 do",
     b"SSH-": "SSH",
     b"\x16\x03": "TLS",

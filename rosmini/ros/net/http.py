@@ -79,10 +79,7 @@ def _check(length: int) -> None:
 
 
 def write_message(
-    connection: h11.Connection,
-    writer: asyncio.StreamWriter,
-    head: h11.Request | h11.Response,
-    body: bytes,
+    connection: h11.Connection, writer: asyncio.StreamWriter, head: h11.Request | h11.Response, body: bytes
 ) -> None:
     """Write a message whose head contains the length of the body."""
     parts = [connection.send(head), connection.send(h11.Data(data=body)), connection.send(h11.EndOfMessage())]

@@ -56,9 +56,7 @@ class IdleReads:
         self._set = select.epoll()
         self._switch = select.epoll()
         self._alarm = os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC)
-        self._alarm_lock = (
-            threading.RLock()
-        )  # of its own: who wakes the scheduler may hold what a reader wants
+        self._alarm_lock = threading.RLock()  # of its own: who wakes the scheduler may hold what a reader wants
         self._set.register(self._alarm, select.EPOLLIN)
         self._switch.register(self._set, select.EPOLLIN)
         loop.add_reader(self._switch, self._read_in_loop)

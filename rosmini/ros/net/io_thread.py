@@ -57,9 +57,7 @@ class IoThread:
         with self._lock:
             if self._loop is None:
                 self._loop = loop = asyncio.SelectorEventLoop()  # also where Windows would take another
-                self._thread = threading.Thread(
-                    target=_run, args=(loop, self.closers), name="rosmini-net", daemon=True
-                )
+                self._thread = threading.Thread(target=_run, args=(loop, self.closers), name="rosmini-net", daemon=True)
                 if self._scheduler is not None:
                     loop.call_soon(self._begin_idle, loop, self._scheduler)
                 self._thread.start()

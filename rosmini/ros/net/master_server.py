@@ -74,9 +74,7 @@ class MasterServer:
         names = (*where.names, where.master[0])
         complain = None if warn is None else partial(_complain, warn)
         try:
-            self._server = XmlRpcServer(
-                io, self._answer, bind=where.bind, port=port, names=names, warn=complain
-            )
+            self._server = XmlRpcServer(io, self._answer, bind=where.bind, port=port, names=names, warn=complain)
         except OSError as error:
             raise _refusal(where, port, error) from error
         self._advertised = None if warn is None else Advertised(warn)

@@ -74,11 +74,7 @@ def _is_absent(error: MasterUnreachable) -> bool:
 
 
 def online(
-    graph: Graph,
-    master_uri: str | None = None,
-    environ: Mapping[str, str] | None = None,
-    *,
-    live: bool = True,
+    graph: Graph, master_uri: str | None = None, environ: Mapping[str, str] | None = None, *, live: bool = True
 ) -> Online:
     """Connect a graph with others; see :meth:`Graph.online <rosmini.core.graph.graph.Graph.online>`."""
     return Online(graph, addresses(environ, {"__master": master_uri} if master_uri else None), live=live)

@@ -22,9 +22,7 @@ def register_again(node: Node) -> None:
         if node.subscriptions.get(topic) is not subscription or node.shutdown_reason is not None:
             continue
         before = subscription.updates
-        uris = master.register(
-            "registerSubscriber", topic, subscription.message_class._type, node.uri, warn=warn
-        )
+        uris = master.register("registerSubscriber", topic, subscription.message_class._type, node.uri, warn=warn)
         if subscription.updates == before and node.subscriptions.get(topic) is subscription:
             subscription.update_publishers(uris)
     services_at = node.graph.transport.service_uri(node.uri)

@@ -25,13 +25,7 @@ class TcpServiceLink:
 
     is_remote = True
 
-    def __init__(
-        self,
-        scheduler: Scheduler,
-        stream: Stream,
-        header: Header,
-        service_class: Any,
-    ) -> None:
+    def __init__(self, scheduler: Scheduler, stream: Stream, header: Header, service_class: Any) -> None:
         self.header = header
         self._scheduler = scheduler
         self._stream = stream

@@ -17,12 +17,7 @@ class TcpClient:
     """A client of a service, as its server sees it; requests are handled one after another."""
 
     def __init__(
-        self,
-        scheduler: Scheduler,
-        stream: Stream,
-        session: Session,
-        header: Header,
-        first: list[bytes],
+        self, scheduler: Scheduler, stream: Stream, session: Session, header: Header, first: list[bytes]
     ) -> None:
         self._scheduler = scheduler
         self._stream = stream

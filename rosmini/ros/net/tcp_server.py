@@ -43,14 +43,7 @@ class TcpServer:
     """Listens for one node from its creation on. Raises ``OSError`` at once on failure."""
 
     def __init__(
-        self,
-        io: IoThread,
-        scheduler: Scheduler,
-        endpoint: Node,
-        warn: Warn,
-        *,
-        bind: str,
-        port: int = 0,
+        self, io: IoThread, scheduler: Scheduler, endpoint: Node, warn: Warn, *, bind: str, port: int = 0
     ) -> None:
         self.io = io
         self.scheduler = scheduler

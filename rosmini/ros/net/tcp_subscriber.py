@@ -33,12 +33,7 @@ class TopicInlet:
     """Receives the frames of one publisher; they stay bytes until callbacks have processed earlier ones."""
 
     def __init__(
-        self,
-        scheduler: Scheduler,
-        stream: Stream,
-        receiver: Connection,
-        first: list[bytes],
-        on_cut: Callable[[], None],
+        self, scheduler: Scheduler, stream: Stream, receiver: Connection, first: list[bytes], on_cut: Callable[[], None]
     ) -> None:
         self._scheduler = scheduler
         self._on_cut = on_cut

@@ -113,9 +113,7 @@ class TcpTransport:
         except Unreached as error:
             raise self._explained(error) from error.__cause__
         if not isinstance(answer, list) or len(answer) != 3:
-            raise TransportException(
-                f"{uri} answered {method} with {shown(answer)}, not [code, status, value]"
-            )
+            raise TransportException(f"{uri} answered {method} with {shown(answer)}, not [code, status, value]")
         return answer
 
     def retry(self, seconds: float, function: Callable[[], object]) -> bool:

@@ -132,9 +132,7 @@ class Watch:
     def _end_replaced(self, seen: _Seen) -> None:
         """End a node whose name another one has taken."""
         if seen in self._nodes():
-            seen.node.shutdown_requested(
-                "/master", f"[{seen.node.name}] Reason: new node registered with same name"
-            )
+            seen.node.shutdown_requested("/master", f"[{seen.node.name}] Reason: new node registered with same name")
 
     def _register_again(self, forgotten: list[_Seen], what: str) -> None:
         present = set(self._nodes())

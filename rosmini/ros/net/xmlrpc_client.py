@@ -87,14 +87,10 @@ class XmlRpcClient:
             async with asyncio.timeout(timeout):
                 answer = await self._exchange(host, port, urlsplit(uri).path or "/", body)
         except TimeoutError as error:
-            msg = (
-                f"{uri} does not answer {method} within {timeout:g} s: it hangs, or the way there is blocked"
-            )
+            msg = f"{uri} does not answer {method} within {timeout:g} s: it hangs, or the way there is blocked"
             raise Unreached(msg, host) from error
         except OSError as error:
-            raise TransportTerminated(
-                f"the connection to {uri} broke before {method} was answered: {error}"
-            ) from error
+            raise TransportTerminated(f"the connection to {uri} broke before {method} was answered: {error}") from error
         except h11.ProtocolError as error:
             msg = f"{uri} did not answer {method} as a server of XML-RPC does: {error}"
             raise TransportException(msg) from error

@@ -35,10 +35,7 @@ _ABSENT = {
         "publishes a node's health",
         "publish diagnostic_msgs.msg.DiagnosticArray on /diagnostics from a rospy.Timer",
     ),
-    "dynamic_reconfigure.parameter_generator": (
-        "makes modules of .cfg files",
-        "see parameter_generator_catkin",
-    ),
+    "dynamic_reconfigure.parameter_generator": ("makes modules of .cfg files", "see parameter_generator_catkin"),
     "dynamic_reconfigure.parameter_generator_catkin": (
         "describes parameters in .cfg files, which catkin_make turns into modules",
         "name the file in generate_dynamic_reconfigure_options() of CMakeLists.txt and run catkin_make, which reads it",
@@ -51,10 +48,7 @@ _ABSENT = {
         "reads message definitions and computes md5 sums when catkin builds",
         "take message._slot_types, message._full_text and message._md5sum",
     ),
-    "genpy.generator": (
-        "makes Python files of message definitions",
-        "call genpy.dynamic.generate_dynamic(type, text)",
-    ),
+    "genpy.generator": ("makes Python files of message definitions", "call genpy.dynamic.generate_dynamic(type, text)"),
     "image_geometry": (
         "projects points with a camera's calibration",
         "use the matrix itself: P = numpy.reshape(info.P, (3, 4)); u, v, w = P @ (x, y, z, 1); pixel = u / w, v / w",
@@ -84,10 +78,7 @@ _ABSENT = {
         "has vectors, rotations and frames of Orocos KDL",
         "use tf.transformations: quaternion_matrix, euler_from_quaternion, concatenate_matrices",
     ),
-    "resource_retriever": (
-        "loads files by URL",
-        "find files with rospkg.RosPack().get_path('package') and open them",
-    ),
+    "resource_retriever": ("loads files by URL", "find files with rospkg.RosPack().get_path('package') and open them"),
     "ros_numpy": (
         "turns messages into numpy arrays and back",
         (
@@ -114,20 +105,11 @@ _ABSENT = {
     ),
     "roslib.gentools": ("computes md5 sums of definitions", "take message._md5sum and message._full_text"),
     "roslib.launcher": ("changes Python's path by manifests", "call roslib.load_manifest, or nothing at all"),
-    "roslib.manifest": (
-        "reads manifest.xml of rosbuild",
-        "read package.xml with catkin_pkg.package.parse_package",
-    ),
-    "roslib.msgs": (
-        "reads message definitions",
-        "take message.__slots__, message._slot_types and message._full_text",
-    ),
+    "roslib.manifest": ("reads manifest.xml of rosbuild", "read package.xml with catkin_pkg.package.parse_package"),
+    "roslib.msgs": ("reads message definitions", "take message.__slots__, message._slot_types and message._full_text"),
     "roslib.rospack": ("calls rospack", "use rospkg.RosPack()"),
     "roslib.stacks": ("finds stacks of rosbuild", "use rospkg.RosPack()"),
-    "rosmaster": (
-        "is the Master's own program",
-        "ask rosgraph.Master: the Master is in the same process here",
-    ),
+    "rosmaster": ("is the Master's own program", "ask rosgraph.Master: the Master is in the same process here"),
     "rospy.impl": (
         "is the inside of rospy, its sockets and threads",
         "use the public functions of rospy; rosgraph.Master(rospy.get_name()) asks the Master",
@@ -151,10 +133,7 @@ _ABSENT = {
         "see smach; call actions with actionlib.SimpleActionClient",
     ),
     "sound_play": ("plays sounds", _ALONE),
-    "tf2_kdl": (
-        "moves objects of PyKDL to other frames",
-        "use tf2_geometry_msgs and messages of geometry_msgs",
-    ),
+    "tf2_kdl": ("moves objects of PyKDL to other frames", "use tf2_geometry_msgs and messages of geometry_msgs"),
     "tf_conversions": (
         "converts between PyKDL and messages",
         "use tf.transformations, which has the same functions as tf_conversions.transformations",
@@ -174,9 +153,7 @@ def absent_module(name: str) -> AbsentModule | None:
     Return None if it is not a ROS module known to be absent.
     """
     parts = name.split(".")
-    known = next(
-        (".".join(parts[:end]) for end in range(1, len(parts) + 1) if ".".join(parts[:end]) in _ABSENT), None
-    )
+    known = next((".".join(parts[:end]) for end in range(1, len(parts) + 1) if ".".join(parts[:end]) in _ABSENT), None)
     if known is not None:
         what, instead = _ABSENT[known]
     elif name.startswith(("rqt_", "qt_gui", "python_qt_binding")):

@@ -155,9 +155,7 @@ def _introduce(context: Any, node: Node) -> None:
 
 def _check_name(name: Any) -> None:
     if not isinstance(name, str) or not name:
-        raise IllegalName(
-            f"name must not be empty: init_node() takes a node's name, such as 'talker', not {name!r}"
-        )
+        raise IllegalName(f"name must not be empty: init_node() takes a node's name, such as 'talker', not {name!r}")
     if "/" in name:
         raise IllegalName(
             f"namespaces are not allowed in node names: {name!r}. "
@@ -173,12 +171,8 @@ def _second_call(session: Session, arguments: _Arguments) -> str:
         if session.is_main
         else "One script is one node: run a second script for a second node."
     )
-    differ = [
-        name for name in _Arguments.__annotations__ if getattr(before, name) != getattr(arguments, name)
-    ]
-    was, now = (
-        ", ".join(f"{name}={getattr(given, name)!r}" for name in differ) for given in (before, arguments)
-    )
+    differ = [name for name in _Arguments.__annotations__ if getattr(before, name) != getattr(arguments, name)]
+    was, now = (", ".join(f"{name}={getattr(given, name)!r}" for name in differ) for given in (before, arguments))
     return f"rospy.init_node() has already been called with different arguments: {was}, now {now}. {how}"
 
 

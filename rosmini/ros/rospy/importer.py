@@ -76,10 +76,7 @@ _HOMES = {
     "dynamic_reconfigure.srv": "rosmini.msgs.dynamic_reconfigure.srv",
     "genpy.rostime": "rosmini.core.time",
     "roslaunch": "rosmini.ros.launch.script_api",
-    **{
-        f"roslaunch.{name}": "rosmini.ros.launch.script_api"
-        for name in ("core", "parent", "rlutil", "scriptapi")
-    },
+    **{f"roslaunch.{name}": "rosmini.ros.launch.script_api" for name in ("core", "parent", "rlutil", "scriptapi")},
     **{f"roslaunch.{name}": "rosmini.ros.launch.script_config" for name in ("config", "xmlloader")},
     "roslib.message": f"{_HERE}.aliases.genpy.message",
     "rospy.exceptions": "rosmini.core.errors",

@@ -42,9 +42,7 @@ def log(level: int, text: Any, args: tuple[Any, ...], options: dict[str, Any], b
     """
     unknown = options.keys() - KEYWORDS
     if unknown:
-        raise TypeError(
-            f"a log call has no option {', '.join(sorted(unknown))}; it has {', '.join(sorted(KEYWORDS))}"
-        )
+        raise TypeError(f"a log call has no option {', '.join(sorted(unknown))}; it has {', '.join(sorted(KEYWORDS))}")
     node = current_node()
     name: str | None = options.get("logger_name")
     logger = f"{base}.{name}" if name else base
@@ -67,9 +65,7 @@ def _call_handlers(level: int, text: str, name: str) -> None:
         return
     code = (frame := _caller(1)).f_code
     severity = getattr(logging, NAMES[level])
-    logger.handle(
-        logger.makeRecord(name, severity, code.co_filename, frame.f_lineno, text, (), None, code.co_name)
-    )
+    logger.handle(logger.makeRecord(name, severity, code.co_filename, frame.f_lineno, text, (), None, code.co_name))
 
 
 def _text(text: Any, args: tuple[Any, ...], options: dict[str, Any]) -> str:

@@ -3,15 +3,7 @@
 from __future__ import annotations
 
 from rosmini.core.errors import ROSException
-from rosmini.core.names import (
-    Remappings,
-    canonicalize,
-    is_global,
-    is_private,
-    join,
-    namespace,
-    resolve_for,
-)
+from rosmini.core.names import Remappings, canonicalize, is_global, is_private, join, namespace, resolve_for
 
 from .session import any_node, current_node, current_session
 

@@ -6,11 +6,7 @@ import inspect
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core import time as base
-from rosmini.core.errors import (
-    ROSException,
-    ROSInterruptException,
-    ServiceException,
-)
+from rosmini.core.errors import ROSException, ROSInterruptException, ServiceException
 from rosmini.core.graph.transport import extra_fields
 from rosmini.msgs.importer import how_to_import
 from rosmini.msgs.message import Message
@@ -175,11 +171,7 @@ class ServiceProxy(_Service):
         client = self._client
         if client is None or client.node is not any_node():
             client = self._client = any_node().service_client(
-                self.resolved_name,
-                self.service_class,
-                persistent=self.persistent,
-                numpy=False,
-                headers=self.headers,
+                self.resolved_name, self.service_class, persistent=self.persistent, numpy=False, headers=self.headers
             )
         if len(args) == 1 and not kwds:
             self._check_request(args[0])

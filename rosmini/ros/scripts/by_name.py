@@ -24,9 +24,7 @@ def find(name: str) -> Executable:
     """
     package, slash, executable = name.partition("/")
     if not (package and slash and executable) or "/" in executable:
-        raise ScriptError(
-            f"{name!r} is not of the form PACKAGE/EXECUTABLE, for example rosmini_sim/simulator"
-        )
+        raise ScriptError(f"{name!r} is not of the form PACKAGE/EXECUTABLE, for example rosmini_sim/simulator")
     return PackageIndex().find_executable(package, executable)
 
 

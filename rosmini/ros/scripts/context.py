@@ -127,9 +127,7 @@ class ScriptContext:
         self.builtins[TICK] = self._make_tick()
         self.library_builtins = {**self.builtins, "__import__": self._import_for_library}
         self.main_module = ModuleType("__main__")
-        self.main_module.__dict__.update(
-            __builtins__=self.builtins_module, __file__=self.filename, __cached__=None
-        )
+        self.main_module.__dict__.update(__builtins__=self.builtins_module, __file__=self.filename, __cached__=None)
         if self.filename.startswith("<"):
             del self.main_module.__dict__["__file__"]
 
@@ -446,9 +444,7 @@ class ScriptContext:
             except SystemExit:
                 pass
             except BaseException as error:
-                self.stderr.write(
-                    f"Exception ignored in atexit callback {function!r}:\n{user_traceback(error)}"
-                )
+                self.stderr.write(f"Exception ignored in atexit callback {function!r}:\n{user_traceback(error)}")
 
     def run_shutdown(self, reason: str) -> None:
         """Call the functions in ``at_shutdown``, once."""

@@ -61,17 +61,12 @@ def user_traceback(error: BaseException) -> str:
 def _strip(shown: traceback.TracebackException, error: BaseException) -> None:
     """Remove rosmini's frames, including those in causes and groups."""
     if shown.stack is not None:
-        shown.stack = traceback.StackSummary.from_list(
-            [frame for frame in shown.stack if not _ours(frame.filename)]
-        )
+        shown.stack = traceback.StackSummary.from_list([frame for frame in shown.stack if not _ours(frame.filename)])
         if all(_pythons(frame.filename) for frame in shown.stack):  # called by frames of ours only
             shown.stack = None  # type: ignore[assignment]  # `format` leaves out the heading then
     if isinstance(error, ScriptError):  # its message says it all
         shown.__cause__ = shown.__context__ = None
-    for part, source in (
-        (shown.__cause__, error.__cause__),
-        (shown.__context__, error.__context__),
-    ):
+    for part, source in ((shown.__cause__, error.__cause__), (shown.__context__, error.__context__)):
         if part is not None and source is not None:
             _strip(part, source)
     # A cause inside rosmini adds nothing to the error's own message.

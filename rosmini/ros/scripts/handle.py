@@ -89,12 +89,7 @@ class LaneHandle(ABC):
     """
 
     def __init__(
-        self,
-        graph: Graph,
-        args: tuple[str, ...],
-        console: Callable[[], Console],
-        *,
-        owns_console: bool = True,
+        self, graph: Graph, args: tuple[str, ...], console: Callable[[], Console], *, owns_console: bool = True
     ) -> None:
         self.graph = graph
         self.scheduler = graph.scheduler
@@ -118,9 +113,7 @@ class LaneHandle(ABC):
         """Name in output and messages."""
 
     def __repr__(self) -> str:
-        state = (
-            "running" if self._running else "not running" if self.returncode is None else self._ended_how()
-        )
+        state = "running" if self._running else "not running" if self.returncode is None else self._ended_how()
         return f"<{type(self).__name__} {self.name}: {state}>"
 
     def _ended_how(self) -> str:
@@ -128,9 +121,7 @@ class LaneHandle(ABC):
 
     def instance(self) -> Any:
         """Return the object that a built-in node created. Raises ``ScriptError`` for a script, which has none."""
-        raise ScriptError(
-            f"{self.name} is a script, which has no such object; wait() returns its exit status"
-        )
+        raise ScriptError(f"{self.name} is a script, which has no such object; wait() returns its exit status")
 
     @property
     def output(self) -> str | None:
@@ -212,9 +203,7 @@ class LaneHandle(ABC):
         if self._running:
             self._signal(signal.Signals(signum))
 
-    def terminate(
-        self, sigint_timeout: float = SIGINT_TIMEOUT_S, sigterm_timeout: float = SIGTERM_TIMEOUT_S
-    ) -> None:
+    def terminate(self, sigint_timeout: float = SIGINT_TIMEOUT_S, sigterm_timeout: float = SIGTERM_TIMEOUT_S) -> None:
         """End it as roslaunch does, without waiting: SIGINT, after a timeout SIGTERM, after another one ``kill``.
 
         Timeouts are in seconds of graph time. May be called repeatedly and after the end.
@@ -257,9 +246,7 @@ class LaneHandle(ABC):
     def _later(self, delay_ns: int, step: Callable[[], object]) -> None:
         def due() -> None:
             self._next_step = None
-            Lane(self.scheduler, f"{self.name} handle").submit(
-                step
-            )  # it may ask the Master, which takes time
+            Lane(self.scheduler, f"{self.name} handle").submit(step)  # it may ask the Master, which takes time
 
         self._next_step = self.scheduler.call_at(self.scheduler.now_ns() + delay_ns, due)
 

@@ -13,13 +13,7 @@ import builtins
 import importlib
 import importlib.util
 import sys
-from importlib.machinery import (
-    EXTENSION_SUFFIXES,
-    SOURCE_SUFFIXES,
-    ExtensionFileLoader,
-    FileFinder,
-    SourceFileLoader,
-)
+from importlib.machinery import EXTENSION_SUFFIXES, SOURCE_SUFFIXES, ExtensionFileLoader, FileFinder, SourceFileLoader
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
@@ -77,9 +71,7 @@ class Importer:
             return self._import(absolute, name, globals, locals, fromlist, level)
         try:
             module = self._import(absolute, name, globals, locals, fromlist, level)
-            missing = next(
-                (each for each in fromlist or () if each != "*" and not hasattr(module, each)), None
-            )
+            missing = next((each for each in fromlist or () if each != "*" and not hasattr(module, each)), None)
             if missing is not None:
                 raise ImportError(f"cannot import name {missing!r} from {absolute!r}", name=absolute)
         except ImportError as error:
@@ -208,14 +200,8 @@ class Importer:
 
     def _not_in_ours(self, name: str, package: str) -> ModuleNotFoundError:
         """Return the error for a submodule that rosmini's ``package`` lacks."""
-        inner = sorted(
-            each.removeprefix(f"{package}.") for each in self._given if each.startswith(f"{package}.")
-        )
-        has = (
-            f"rosmini's {package} has the modules {', '.join(inner)}"
-            if inner
-            else f"{package} has no modules here"
-        )
+        inner = sorted(each.removeprefix(f"{package}.") for each in self._given if each.startswith(f"{package}."))
+        has = f"rosmini's {package} has the modules {', '.join(inner)}" if inner else f"{package} has no modules here"
         return ModuleNotFoundError(f"No module named {name!r}: {has}", name=name)
 
     def _local_spec(self, name: str) -> ModuleSpec | None:
@@ -275,9 +261,7 @@ class Importer:
             if spec.loader is not None:
                 return spec
             portions += spec.submodule_search_locations or []
-        if not portions or self._host_has(
-            name
-        ):  # a plain folder beside the script gives way to a real package
+        if not portions or self._host_has(name):  # a plain folder beside the script gives way to a real package
             return None
         spec = importlib.machinery.ModuleSpec(name, None, is_package=True)
         spec.submodule_search_locations = portions
@@ -351,9 +335,7 @@ class Importer:
     def _load_local_child(self, name: str, parent: ModuleType) -> ModuleType:
         folders = getattr(parent, "__path__", None)
         if folders is None:
-            raise ModuleNotFoundError(
-                f"No module named {name!r}; {parent.__name__!r} is not a package", name=name
-            )
+            raise ModuleNotFoundError(f"No module named {name!r}; {parent.__name__!r} is not a package", name=name)
         spec = self._find(name, list(folders))
         if spec is None:
             raise ModuleNotFoundError(f"No module named {name!r}", name=name)

@@ -112,9 +112,7 @@ class NodeHandle(LaneHandle):
         streams = self._streams = OwnStreams(self.console.sink, label) if self.console.is_apart else None
         self._environ = OwnEnviron(self._changes, streams) if self._changes else None
         context = self._environ or streams
-        node = self.node = Node(
-            name, self.graph, namespace=namespace, remappings=self._remappings, context=context
-        )
+        node = self.node = Node(name, self.graph, namespace=namespace, remappings=self._remappings, context=context)
         node.logger.streams = streams
         node.on_exit = lambda: self._ended(node)
         node.process = self

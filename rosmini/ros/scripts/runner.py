@@ -55,9 +55,7 @@ class _Run:
 
     def drive(self, duration: float | None) -> tuple[str, RunReport | None]:
         """Run the scripts; return why they stopped and the report."""
-        until_ns = (
-            None if duration is None else self.scheduler.now_ns() + span_ns(duration, "a run's duration")
-        )
+        until_ns = None if duration is None else self.scheduler.now_ns() + span_ns(duration, "a run's duration")
         for each in (*self.nodes, *self.scripts):
             each.start()
         try:
@@ -68,16 +66,12 @@ class _Run:
 
     def end(self, reason: str) -> None:
         """Ask the running scripts and nodes to end; force out the scripts that do not."""
-        why = {
-            "interrupted": "Ctrl-C",
-            "time": "the time is over",
-            "drained": "nothing is left to happen",
-        }.get(reason, reason)
+        why = {"interrupted": "Ctrl-C", "time": "the time is over", "drained": "nothing is left to happen"}.get(
+            reason, reason
+        )
         interrupted = reason == "interrupted"
         running = [script for script in self.scripts if script.poll() is None]
-        asked = [
-            script for script in running if (script.interrupt(why) if interrupted else script.ask_to_end(why))
-        ]
+        asked = [script for script in running if (script.interrupt(why) if interrupted else script.ask_to_end(why))]
         if asked:
             self._go_on(self.grace, lambda: all(script.poll() is not None for script in asked))
         for script in running:
@@ -93,8 +87,7 @@ class _Run:
             if node.poll() is None:
                 node.ask_to_end(why)
         self._go_on(
-            END_GRACE_S,
-            lambda: self._scripts_have_ended() and all(node.poll() is not None for node in self.nodes),
+            END_GRACE_S, lambda: self._scripts_have_ended() and all(node.poll() is not None for node in self.nodes)
         )
 
     def _scripts_have_ended(self) -> bool:

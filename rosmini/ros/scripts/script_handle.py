@@ -215,9 +215,7 @@ class ScriptHandle(LaneHandle):
     def _wait_for_threads(self) -> None:
         threads = self.context.threads
         while True:
-            waited_for = [
-                thread for thread in threads.alive() if thread is not threads.main and not thread.daemon
-            ]
+            waited_for = [thread for thread in threads.alive() if thread is not threads.main and not thread.daemon]
             if not waited_for:
                 return
             waited_for[0].join()
@@ -280,13 +278,8 @@ class ScriptHandle(LaneHandle):
         context = self.context
         if signum == signal.SIGINT:
             self.interrupt("signal-2", in_place=in_place)
-        elif (
-            not context.deliver(signum, in_place=in_place)
-            and context.handlers.get(signum) is not signal.SIG_IGN
-        ):
-            if signum == signal.SIGTERM and (
-                context.at_shutdown or context.node is not None
-            ):  # handled by rospy
+        elif not context.deliver(signum, in_place=in_place) and context.handlers.get(signum) is not signal.SIG_IGN:
+            if signum == signal.SIGTERM and (context.at_shutdown or context.node is not None):  # handled by rospy
                 self.ask_to_end("signal-15")
             elif signum.name not in _IGNORED_BY_DEFAULT:
                 self.end_now(-signum)

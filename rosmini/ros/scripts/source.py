@@ -138,9 +138,7 @@ def _not_there(path: Path) -> str:
     if not guess and path.with_suffix(".py").name in names:
         guess = f"did you mean {path.with_suffix('.py').name}?"
     scripts = sorted(name for name in names if name.endswith(".py"))
-    hint = guess or (
-        f"the scripts there are {_listing(scripts)}" if scripts else "there is no script in that folder"
-    )
+    hint = guess or (f"the scripts there are {_listing(scripts)}" if scripts else "there is no script in that folder")
     return f"{path} is not there (looked in {folder}); {hint}"
 
 
@@ -157,9 +155,7 @@ def _other_kind(path: Path, data: bytes) -> str | None:
     first = data.split(b"\n", 1)[0]
     if first.startswith(b"#!"):
         words = first[2:].decode("latin-1").split()
-        program = next(
-            (word.rpartition("/")[2] for word in words if not word.endswith("/env") and word[0] != "-"), ""
-        )
+        program = next((word.rpartition("/")[2] for word in words if not word.endswith("/env") and word[0] != "-"), "")
         return None if "python" in program or not program else f"a script for {program}"
     if b"\0" in data[:8192] and not data.startswith((b"\xff\xfe", b"\xfe\xff")):
         return "a binary file"

@@ -41,9 +41,7 @@ class _TickInserter(ast.NodeTransformer):
         return node
 
     def _loop(self, node: ast.While | ast.For) -> ast.AST:
-        is_idle = (
-            isinstance(node, ast.While) and not _assigns(node.test) and all(map(_does_nothing, node.body))
-        )
+        is_idle = isinstance(node, ast.While) and not _assigns(node.test) and all(map(_does_nothing, node.body))
         self.generic_visit(node)
         keywords = [ast.keyword("is_idle", ast.Constant(True))] if is_idle else []
         call = ast.Expr(ast.Call(ast.Name(TICK, ast.Load()), [], keywords))

@@ -91,9 +91,7 @@ class BatteryDevice(Device):
             self._drain()
         if self._outlet is not None and self._outlet.num_connections():
             shown = self.shown
-            self._outlet.publish(
-                stamp, (shown.voltage, shown.current, shown.charge, shown.percentage, not shown.empty)
-            )
+            self._outlet.publish(stamp, (shown.voltage, shown.current, shown.charge, shown.percentage, not shown.empty))
 
     def _drain(self) -> None:
         self.shown = self.battery.drain(self._used / self._since, self._since)
@@ -162,13 +160,7 @@ class SensorStateDevice(Sensor):
         robot = self.robot
         sectors = pressed(self.bumper, robot.pose, contacts(self.host, robot.name))
         left, right = (_int32(ticks) for ticks in robot.ticks)
-        return (
-            bits(sectors),
-            self.drive.powered,
-            left,
-            right,
-            self.battery.shown.voltage if self.battery else 0.0,
-        )
+        return (bits(sectors), self.drive.powered, left, right, self.battery.shown.voltage if self.battery else 0.0)
 
 
 class Switches:

@@ -209,8 +209,7 @@ def points_message(camera: CameraModel, frame: str) -> Any:
     message.header.frame_id = frame
     field = message_class("sensor_msgs/PointField")
     message.fields = [
-        field(name=name, offset=4 * i, datatype=field.FLOAT32, count=1)
-        for i, name in enumerate(POINT.names or ())
+        field(name=name, offset=4 * i, datatype=field.FLOAT32, count=1) for i, name in enumerate(POINT.names or ())
     ]
     message.height, message.width = camera.height, camera.width
     message.point_step = POINT.itemsize

@@ -40,11 +40,7 @@ class ImuDevice(Sensor):
     saved = ("_imu", "_heading")
     varying = tuple(
         f"{field}.{axis}"
-        for field, axes in (
-            ("orientation", "xyzw"),
-            ("angular_velocity", "xyz"),
-            ("linear_acceleration", "xyz"),
-        )
+        for field, axes in (("orientation", "xyzw"), ("angular_velocity", "xyz"), ("linear_acceleration", "xyz"))
         for axis in axes
     )
 

@@ -56,9 +56,7 @@ class RangeDevice(Sensor):
     ) -> None:
         self.lidar = lidar
         self._scan_time = 1 / (rate or lidar.rate)
-        super().__init__(
-            host, robot, topic=topic, frame=frame or lidar.frame, rate=rate or lidar.rate, name=name
-        )
+        super().__init__(host, robot, topic=topic, frame=frame or lidar.frame, rate=rate or lidar.rate, name=name)
         self.pose: Pose = self.robot.pose
         """The robot's pose at the last scan."""
         self.ranges: Floats | None = None

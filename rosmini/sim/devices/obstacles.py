@@ -25,18 +25,10 @@ class ObstacleMarkers(Device):
     always = False
 
     def __init__(
-        self,
-        host: Host,
-        *,
-        topic: str = "obstacles",
-        frame: str = MAP,
-        rate: float = 10.0,
-        name: str = "obstacles",
+        self, host: Host, *, topic: str = "obstacles", frame: str = MAP, rate: float = 10.0, name: str = "obstacles"
     ) -> None:
         super().__init__(host, name, rate)
-        self._publisher = host.node.publisher(
-            topic, message_class("visualization_msgs/MarkerArray"), queue_size=10
-        )
+        self._publisher = host.node.publisher(topic, message_class("visualization_msgs/MarkerArray"), queue_size=10)
         self._markers = Markers(frame)
 
     def wanted(self) -> bool:

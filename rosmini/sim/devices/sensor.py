@@ -92,9 +92,7 @@ class Sensor(Device):
         rate: float | None = None,
         name: str | None = None,
     ) -> None:
-        super().__init__(
-            host, name or f"{robot}/{self.label or self.default_topic}", rate or self.default_rate
-        )
+        super().__init__(host, name or f"{robot}/{self.label or self.default_topic}", rate or self.default_rate)
         if robot is not None:
             self.robot = host.engine.robot(robot)
         message: Any = message_class(self.message_type)()

@@ -227,12 +227,5 @@ def kinematic_body(obstacle: Obstacle, owner: Placed) -> Body:
     """Return the body of an obstacle that cannot be pushed but is not fixed."""
     reach, mass = reach_of(obstacle.shape), Mass(1.0, 1.0)
     return Body(
-        obstacle.name,
-        KINEMATIC,
-        owner,
-        pieces_of(obstacle.shape),
-        obstacle.bottom,
-        obstacle.height,
-        mass,
-        reach,
+        obstacle.name, KINEMATIC, owner, pieces_of(obstacle.shape), obstacle.bottom, obstacle.height, mass, reach
     )

@@ -13,16 +13,7 @@ from rosmini.core.geometry.poses import Pose, transform_points
 from rosmini.sim.models import RobotModel
 from rosmini.sim.world import Obstacle, World
 
-from .bodies import (
-    Body,
-    Crate,
-    Piece,
-    Surface,
-    crate_body,
-    kinematic_body,
-    pieces_of,
-    robot_body,
-)
+from .bodies import Body, Crate, Piece, Surface, crate_body, kinematic_body, pieces_of, robot_body
 from .ground import Cells, Ground
 from .instant import Instant
 from .kernels import PUSH_DEPTH, REST_SPEED, ROBOT
@@ -77,9 +68,7 @@ class Contacts:
 
     def add_robot(self, robot: Robot) -> None:
         """Add the body of a robot with a drive."""
-        self._self_propelled[robot.name] = self.bodies[robot.name] = robot_body(
-            robot.name, robot.model, robot
-        )
+        self._self_propelled[robot.name] = self.bodies[robot.name] = robot_body(robot.name, robot.model, robot)
 
     def add_mover(self, mover: Mover) -> None:
         """Add the body of an obstacle that moves by itself."""
@@ -145,17 +134,13 @@ class Contacts:
             centres = np.array(places).reshape(-1, 3)
             apart = np.hypot(table[:, :1] - centres[:, 0], table[:, 1:2] - centres[:, 1]) - centres[:, 2]
             near = (apart.min(axis=1, initial=np.inf) <= reach + table[:, 2]).tolist()
-            found.update(
-                dict.fromkeys(body for body, close in zip(self_propelled, near, strict=True) if close)
-            )
+            found.update(dict.fromkeys(body for body, close in zip(self_propelled, near, strict=True) if close))
         return list(found)
 
     def scene(self, bodies: Iterable[Body], margin: float) -> Near:
         """Return tables of bodies that move at most `margin` [m] before the next call."""
         ordered = sorted(bodies, key=lambda body: body.name)
-        return Near(
-            ordered, [body.owner.pose for body in ordered], self.ground, self.surface, margin, self._loops
-        )
+        return Near(ordered, [body.owner.pose for body in ordered], self.ground, self.surface, margin, self._loops)
 
     # -- overlaps ------------------------------------------------------------------------------------------------
 

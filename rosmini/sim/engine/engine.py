@@ -64,9 +64,7 @@ class Engine:
     `world` has all obstacles at their initial poses; `obstacles` returns the movable ones at their current poses.
     """
 
-    def __init__(
-        self, world: World, rng: Callable[[str], np.random.Generator], *, noise: float = 1.0
-    ) -> None:
+    def __init__(self, world: World, rng: Callable[[str], np.random.Generator], *, noise: float = 1.0) -> None:
         self.noise = noise
         self._rng = rng
         self._population = Population()
@@ -265,9 +263,7 @@ class Engine:
         def obstruction(at: Pose) -> str | None:
             return self.obstruction(model, at, name)
 
-        return free_pose(
-            self.world, model, pose, obstruction, lambda at: self.contacts.obstruction(model, at, name)
-        )
+        return free_pose(self.world, model, pose, obstruction, lambda at: self.contacts.obstruction(model, at, name))
 
     def obstruction(self, model: RobotModel, pose: Pose, name: str = "") -> str | None:
         """Describe the object that occupies `pose`; None if a robot has room there."""
@@ -294,9 +290,7 @@ class Engine:
         obstruction = self._obstruction_of(obstacle)
         if obstruction is not None:
             where = "({:.2f}, {:.2f})".format(*obstacle.pose)
-            raise WorldError(
-                f"the obstacle {obstacle.name!r} cannot be put to {where}: {obstruction} is in its way"
-            )
+            raise WorldError(f"the obstacle {obstacle.name!r} cannot be put to {where}: {obstruction} is in its way")
         self._insert(obstacle)
 
     def _obstruction_of(self, obstacle: Obstacle) -> str | None:
@@ -323,9 +317,7 @@ class Engine:
         """Return the obstacle of this name as it was inserted. Raises `RobotGone`."""
         if name not in self._obstacles:
             hint, world = nearest(name, [*self._obstacles, *self.robots]), self._initial_world.name
-            msg = (
-                f"there is nothing {name!r} in the world {world!r} that could be moved or taken away. {hint}"
-            )
+            msg = f"there is nothing {name!r} in the world {world!r} that could be moved or taken away. {hint}"
             raise RobotGone(msg.rstrip())
         return self._obstacles[name]
 
@@ -498,6 +490,4 @@ class Engine:
         found = [obstacle_part(o) for o in self.world.obstacles if o.fixed]
         found += [obstacle_part(crate.obstacle, crate.pose) for crate in self.contacts.crates if crate.shown]
         found += [obstacle_part(mover.obstacle, mover.pose) for mover in self.movers.values()]
-        return found + [
-            part for each in self.robots.values() if each.name != name for part in robot_parts(each)
-        ]
+        return found + [part for each in self.robots.values() if each.name != name for part in robot_parts(each)]

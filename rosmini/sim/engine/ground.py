@@ -140,10 +140,7 @@ class Ground:
             piece
             for name in self.cells.near(x, y, reach)
             for piece in self._pieces[name]
-            if piece.box[0] <= high_x
-            and piece.box[2] >= low_x
-            and piece.box[1] <= high_y
-            and piece.box[3] >= low_y
+            if piece.box[0] <= high_x and piece.box[2] >= low_x and piece.box[1] <= high_y and piece.box[3] >= low_y
         ]
         if self._index is not None:
             found += [self._wall(row) for row in self._index.within(x, y, reach).tolist()]
@@ -153,7 +150,5 @@ class Ground:
         made = self._wall_pieces.get(row)
         if made is None:
             piece = Piece(self._walls[row].reshape(2, 2).copy(), 0.0)
-            made = self._wall_pieces[row] = FixedPiece(
-                (0, row), "wall", 0.0, self._height, piece, box_of(piece)
-            )
+            made = self._wall_pieces[row] = FixedPiece((0, row), "wall", 0.0, self._height, piece, box_of(piece))
         return made

@@ -26,9 +26,7 @@ from .outlines import NONE, Contact, contact, contact_disc, facing, gap, height,
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-Scene = tuple[
-    Floats, Floats, Floats, Floats, Ints, Ints, Floats, Ints, Ints, Floats, Ints, Floats, Ints, Ints
-]
+Scene = tuple[Floats, Floats, Floats, Floats, Ints, Ints, Floats, Ints, Ints, Floats, Ints, Floats, Ints, Ints]
 """Tables of bodies and of the outlines near them, as made by `rosmini.sim.engine.scene`:
 
 for n bodies the poses (n, 3) and properties (n, 13); the corners of their outlines in the body's frame and in the
@@ -247,17 +245,13 @@ def find_contacts(scene: Scene, hits: Floats) -> int:
             for k in range(near_at[i], near_at[i + 1]):
                 m = near[k]
                 if may_touch_fixed(i, m, MAX_GAP, bodies, boxes):
-                    found = contact(
-                        corners, a0, a1, ra, sides, starts[m], starts[m + 1], boxes[m, 4], -MAX_GAP
-                    )
+                    found = contact(corners, a0, a1, ra, sides, starts[m], starts[m + 1], boxes[m, 4], -MAX_GAP)
                     count = append_contact(found, i, -1 - m, hits, count)
             for k in range(mate_at[i], mate_at[i + 1]):
                 j = mates[k]
                 if (j > i or bodies[j, KIND] == KINEMATIC) and may_touch(i, j, MAX_GAP, bodies):
                     for q in range(begin[j], begin[j + 1]):
-                        found = contact(
-                            corners, a0, a1, ra, corners, first[q], first[q + 1], radius[q], -MAX_GAP
-                        )
+                        found = contact(corners, a0, a1, ra, corners, first[q], first[q + 1], radius[q], -MAX_GAP)
                         count = append_contact(found, i, j, hits, count)
     return count
 
@@ -316,9 +310,7 @@ def prepare_contacts(scene: Scene, motion: Floats, hits: Floats, arms: Floats, c
             bx, by = lever_arm(j, hit[PX], hit[PY], scene)
         arms[n, 0], arms[n, 1], arms[n, 2], arms[n, 3] = ax, ay, bx, by
         hit[ALONG] = 1.0 / (inverse_mass(i, ax, ay, nx, ny, bodies) + inverse_mass(j, bx, by, nx, ny, bodies))
-        hit[ACROSS] = 1.0 / (
-            inverse_mass(i, ax, ay, -ny, nx, bodies) + inverse_mass(j, bx, by, -ny, nx, bodies)
-        )
+        hit[ACROSS] = 1.0 / (inverse_mass(i, ax, ay, -ny, nx, bodies) + inverse_mass(j, bx, by, -ny, nx, bodies))
         hit[SPEED] = speed_at(j, bx, by, nx, ny, motion) - speed_at(i, ax, ay, nx, ny, motion)
         hit[BOUNCE] = -min(hit[SPEED], 0.0) * restitution(i, bodies) * restitution(j, bodies)
         hit[PUSH_IMPULSE] = hit[RUB_IMPULSE] = 0.0
@@ -498,9 +490,7 @@ def compiled(name: str) -> Callable[..., Any]:
     )
     number, table, ways, vector = numba.float64, numba.float64[:, ::1], numba.int64[::1], numba.float64[::1]
     types: Any = numba.types
-    scene = types.Tuple(
-        (table, table, table, table, ways, ways, vector, ways, ways, table, ways, table, ways, ways)
-    )
+    scene = types.Tuple((table, table, table, table, ways, ways, vector, ways, ways, table, ways, table, ways, ways))
     signatures = {
         "resolve_overlaps": numba.void(ways, scene, ways),
         "slide": numba.int64(number, number, scene, table, table),

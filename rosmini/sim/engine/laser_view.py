@@ -17,15 +17,7 @@ from rosmini.core.geometry.poses import Pose
 from rosmini.sim.models import LidarModel, RobotModel
 from rosmini.sim.world import Obstacle, World
 
-from .cross_sections import (
-    NOTHING,
-    CrossSection,
-    Floats,
-    at_each_pose,
-    obstacle_section,
-    robot_section,
-    stack,
-)
+from .cross_sections import NOTHING, CrossSection, Floats, at_each_pose, obstacle_section, robot_section, stack
 from .nearby import Nearby, boxes_around
 
 if TYPE_CHECKING:

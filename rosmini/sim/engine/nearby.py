@@ -32,9 +32,7 @@ class Nearby:
     def within(self, x: float, y: float, reach: float) -> Ints:
         """Return the indices of the boxes that meet the square of half-width `reach` [m], in ascending order."""
         parts = [self._large]
-        half = (
-            0.5 + 1e-6
-        )  # a box's centre is at most half a cell from its edge, plus an allowance for rounding errors
+        half = 0.5 + 1e-6  # a box's centre is at most half a cell from its edge, plus an allowance for rounding errors
         low = np.floor((np.array([x, y]) - self._origin - reach) / CELL_SIZE - half)
         high = np.floor((np.array([x, y]) - self._origin + reach) / CELL_SIZE + half)
         left, bottom = np.maximum(low, 0.0).tolist()
@@ -57,6 +55,4 @@ class Nearby:
 
 def boxes_around(segments: Floats) -> Floats:
     """Return the bounding boxes (n, 4) of segments (n, 4)."""
-    return np.hstack(
-        [np.minimum(segments[:, :2], segments[:, 2:]), np.maximum(segments[:, :2], segments[:, 2:])]
-    )
+    return np.hstack([np.minimum(segments[:, :2], segments[:, 2:]), np.maximum(segments[:, :2], segments[:, 2:])])

@@ -40,9 +40,7 @@ def ticks(angle: float, ticks_per_turn: int) -> int:
     return math.floor(angle / (2 * math.pi) * ticks_per_turn)
 
 
-def dead_reckoning(
-    pose: Pose, left: float, right: float, separation: float, turn: float | None = None
-) -> Pose:
+def dead_reckoning(pose: Pose, left: float, right: float, separation: float, turn: float | None = None) -> Pose:
     """Return the pose after the wheels have rolled `left` and `right` [m], by the equations of this module's docstring.
 
     `turn` [rad] overrides dtheta, for example with a gyroscope's value.

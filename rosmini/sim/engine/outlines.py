@@ -21,9 +21,7 @@ Contact = tuple[int, float, float, float, float, float, float, float, float]
 NONE: Contact = (0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
-def parting(
-    a: Floats, a0: int, a1: int, b: Floats, b0: int, b1: int, most: float
-) -> tuple[float, float, float]:
+def parting(a: Floats, a0: int, a1: int, b: Floats, b0: int, b1: int, most: float) -> tuple[float, float, float]:
     """Return the largest separation along a normal of the first outline, and that normal; stops above `most`."""
     best, nx, ny = -math.inf, 0.0, 0.0
     for k in range(a0, a1):
@@ -69,9 +67,7 @@ def height(a: Floats, i: int, j: int, nx: float, ny: float, t: float) -> float:
     return float(hi + part * (hj - hi))
 
 
-def contact(
-    a: Floats, a0: int, a1: int, ra: float, b: Floats, b0: int, b1: int, rb: float, least: float
-) -> Contact:
+def contact(a: Floats, a0: int, a1: int, ra: float, b: Floats, b0: int, b1: int, rb: float, least: float) -> Contact:
     """Return the points and depth of an overlap above `least`; the normal points from the first to the second."""
     if b1 - b0 == 1:
         return contact_disc(a, a0, a1, ra, b[b0, 0], b[b0, 1], rb, least)
@@ -123,9 +119,7 @@ def nearest_side(a: Floats, a0: int, a1: int, x: float, y: float) -> tuple[float
     return best, px, py
 
 
-def contact_disc(
-    a: Floats, a0: int, a1: int, ra: float, x: float, y: float, radius: float, least: float
-) -> Contact:
+def contact_disc(a: Floats, a0: int, a1: int, ra: float, x: float, y: float, radius: float, least: float) -> Contact:
     """`contact` of an outline with a disc."""
     out, nx, ny = -math.inf, 1.0, 0.0  # distance of the centre from the side that it is farthest outside of
     for k in range(a0, a1):

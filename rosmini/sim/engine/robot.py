@@ -54,9 +54,7 @@ class Robot:
     drive: Drive
     _point: TrajectoryPoint
 
-    def __init__(
-        self, name: str, model: RobotModel, pose: Pose, wheels: RealWheels, instant: Instant
-    ) -> None:
+    def __init__(self, name: str, model: RobotModel, pose: Pose, wheels: RealWheels, instant: Instant) -> None:
         self.name = name
         self.model = model
         self.start = pose
@@ -69,9 +67,7 @@ class Robot:
 
     def stop(self, pose: Pose) -> None:
         """Reset it to rest at `pose`, with encoders at zero and without a command."""
-        self._set_trajectory(
-            self._instant.ns, self._new_trajectory(pose, self.drive.initial_state, self.drive.targets)
-        )
+        self._set_trajectory(self._instant.ns, self._new_trajectory(pose, self.drive.initial_state, self.drive.targets))
         self.expires_ns: float = math.inf
         """Time at which the command expires [ns]."""
         self.touching = False
@@ -141,12 +137,7 @@ class Robot:
             since, trajectory = self._since_ns, self._trajectory
         else:
             since, trajectory = self._step.end_ns, self._step.following
-        return (
-            since / SECOND,
-            trajectory.pose,
-            trajectory.state,
-            (trajectory.targets, trajectory.wheel_factors),
-        )
+        return (since / SECOND, trajectory.pose, trajectory.state, (trajectory.targets, trajectory.wheel_factors))
 
     def pose_on_leg(self, leg: Leg, dt: float) -> Pose:
         """Return its pose `dt` seconds after the beginning of a leg of its trail."""
@@ -221,11 +212,7 @@ class Robot:
     @property
     def acceleration_aside(self) -> float:
         """Rate of change of its speed to the left side [m/s2], without the effect of turning."""
-        return (
-            0.0
-            if self.touching
-            else self.drive.velocity(self._current().rates, self._trajectory.wheel_factors)[1]
-        )
+        return 0.0 if self.touching else self.drive.velocity(self._current().rates, self._trajectory.wheel_factors)[1]
 
     def world_velocity(self) -> Speeds:
         """Return its current velocity: along x and y of the map frame [m/s], and rate of turn to the left [rad/s]."""
@@ -245,9 +232,7 @@ class Robot:
         An equal command changes nothing. During a contact, the command takes effect at the end of the step.
         """
         pose_now = self._current()
-        trajectory, old = (
-            (self._trajectory, pose_now.state) if self._step is None else (self._step.following, None)
-        )
+        trajectory, old = (self._trajectory, pose_now.state) if self._step is None else (self._step.following, None)
         state, targets = self.drive.apply_command(trajectory.state if old is None else old, (v, vy, w))
         if targets != trajectory.targets:
             self._change(state, targets)
@@ -282,10 +267,7 @@ class Robot:
         c, s = math.cos(middle), math.sin(middle)
         dx, dy = (end[0] - begin[0]) / dt, (end[1] - begin[1]) / dt
         self.contact_velocity = (dx * c + dy * s, dy * c - dx * s, (end[2] - begin[2]) / dt)
-        self._rates = (
-            (self.contact_velocity[0] - before[0]) / dt,
-            (self.contact_velocity[2] - before[2]) / dt,
-        )
+        self._rates = ((self.contact_velocity[0] - before[0]) / dt, (self.contact_velocity[2] - before[2]) / dt)
         self.slip = ((wheels.pose[0] - end[0]) / dt, (wheels.pose[1] - end[1]) / dt)
         following = self._new_trajectory(end, wheels.state, self._trajectory.targets)
         self._step = Step(begin_ns, begin, end_ns, end, following)
@@ -300,15 +282,7 @@ class Robot:
 
     # -- saving and restoring -------------------------------------------------------------------------------------
 
-    saved: tuple[str, ...] = (
-        "start",
-        "expires_ns",
-        "touching",
-        "contact_velocity",
-        "slip",
-        "_rates",
-        "_since_ns",
-    )
+    saved: tuple[str, ...] = ("start", "expires_ns", "touching", "contact_velocity", "slip", "_rates", "_since_ns")
 
     def state(self) -> dict[str, Any]:
         """Return its complete state, including its wheels, except its name and model."""

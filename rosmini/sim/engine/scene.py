@@ -129,9 +129,7 @@ class Near:
 
     def slide(self, dt: float, motion: Floats) -> list[tuple[str, str, float]]:
         """Let objects slide for a step; return each pair of bodies in contact with the force between them [N]."""
-        count = self._loops.run(
-            "slide", 10 * len(self.bodies), dt, self.friction, self.scene, motion, self.hits
-        )
+        count = self._loops.run("slide", 10 * len(self.bodies), dt, self.friction, self.scene, motion, self.hits)
         found: dict[tuple[str, str], float] = {}
         for i, j, push in self.hits[:count, [0, 1, 11]].tolist():
             if push:
@@ -143,9 +141,7 @@ class Near:
     def resolve_overlaps(self, queue: list[int]) -> list[int]:
         """Resolve the overlaps of robots, those in `queue` first; return the indices of the robots that were moved."""
         moved = np.zeros(len(self.bodies), dtype=np.int64)
-        self._loops.run(
-            "resolve_overlaps", len(self.bodies), np.array(queue, dtype=np.int64), self.scene, moved
-        )
+        self._loops.run("resolve_overlaps", len(self.bodies), np.array(queue, dtype=np.int64), self.scene, moved)
         return np.flatnonzero(moved).tolist()
 
     def clearances(self, robots: list[int], view: float) -> list[float]:

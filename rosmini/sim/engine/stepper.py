@@ -162,26 +162,18 @@ class Stepper:
         now, drivers, movers = self._instant.ns, self._drivers, list(self._population.movers.values())
         self._limit_clearances_outside()
         checked: set[Robot] = set()
-        while short := [
-            r for r in drivers if r not in checked and r.clearance_at(now) < r.top_speed * HORIZON
-        ]:
+        while short := [r for r in drivers if r not in checked and r.clearance_at(now) < r.top_speed * HORIZON]:
             # also measure robots whose clearance will soon be short, so that measurements are rare and batched
-            short += [
-                r for r in drivers if r not in checked and r.clearance_at(now) < 3 * r.top_speed * HORIZON
-            ]
+            short += [r for r in drivers if r not in checked and r.clearance_at(now) < 3 * r.top_speed * HORIZON]
             checked.update(short)
             self._measure_clearances(list(dict.fromkeys(short)))
         for mover in movers:
             if mover.free_distance_at(now) < mover.top_speed * HORIZON:
                 self._measure_mover_clearance(mover)
         bodies = self._population.contacts.bodies
-        active = [
-            bodies[r.name] for r in drivers if r.touching or r.clearance_at(now) < r.top_speed * HORIZON
-        ]
+        active = [bodies[r.name] for r in drivers if r.touching or r.clearance_at(now) < r.top_speed * HORIZON]
         active += [
-            bodies[m.obstacle.name]
-            for m in movers
-            if m.waiting or m.free_distance_at(now) < m.top_speed * HORIZON
+            bodies[m.obstacle.name] for m in movers if m.waiting or m.free_distance_at(now) < m.top_speed * HORIZON
         ]
         active += [bodies[c.obstacle.name] for c in self._population.contacts.crates if c.sliding]
         moving = self._population.moving
@@ -192,12 +184,8 @@ class Stepper:
             self._planned = tick + PLAN
         else:
             self._group = None
-            steps = [
-                each.clearance_at(now) / (each.top_speed * STEP) for each in drivers if each.top_speed > 0
-            ]
-            steps += [
-                each.free_distance_at(now) / (each.top_speed * STEP) for each in movers if each.top_speed > 0
-            ]
+            steps = [each.clearance_at(now) / (each.top_speed * STEP) for each in drivers if each.top_speed > 0]
+            steps += [each.free_distance_at(now) / (each.top_speed * STEP) for each in movers if each.top_speed > 0]
             self._planned = tick + max(int(min(steps, default=1e9)), PLAN)
 
     def _make_group(self, active: list[Body]) -> None:
@@ -230,15 +218,11 @@ class Stepper:
         outside: list[tuple[Robot | Mover, float]] = [
             (each, each.model.reach) for each in self._drivers if each.name not in inside
         ]
-        outside += [
-            (each, each.reach) for name, each in self._population.movers.items() if name not in inside
-        ]
+        outside += [(each, each.reach) for name, each in self._population.movers.items() if name not in inside]
         if outside:
             mine = np.array([(*body.owner.pose[:2], body.reach) for body in members])
             table = np.array([(*each.pose[:2], reach) for each, reach in outside])
-            apart = np.hypot(table[:, :1] - mine[:, 0], table[:, 1:2] - mine[:, 1]) - (
-                table[:, 2:] + mine[:, 2]
-            )
+            apart = np.hypot(table[:, :1] - mine[:, 0], table[:, 1:2] - mine[:, 1]) - (table[:, 2:] + mine[:, 2])
             for (each, _), gap in zip(outside, apart.min(axis=1).tolist(), strict=True):
                 if gap - SAFE < each.clearance_at(now):
                     each.clearance, each.clearance_ns = max(gap - SAFE, 0.0), now

@@ -56,16 +56,12 @@ NO_NOISE: Floats = np.empty(0)
 class Sweeps:
     """The motion of all bodies during the last revolution, computed once for all lasers whose revolutions coincide."""
 
-    def __init__(
-        self, population: Population, scan: Callable[[str, Floats | None, LidarModel], Floats]
-    ) -> None:
+    def __init__(self, population: Population, scan: Callable[[str, Floats | None, LidarModel], Floats]) -> None:
         self._population = population
         self._scan = scan  # measures all beams at once
         self._moment: tuple[float, int, float] | None = None
 
-    def scan(
-        self, viewer: Robot, lidar: LidarModel, beam_time: float, noise: Floats | None
-    ) -> tuple[Floats, Floats]:
+    def scan(self, viewer: Robot, lidar: LidarModel, beam_time: float, noise: Floats | None) -> tuple[Floats, Floats]:
         """Return the ranges (beams,) [m], and the robot's pose at each beam (beams, 3).
 
         The first beam is measured now, each further one `beam_time` [s] earlier.
@@ -102,13 +98,7 @@ class Sweeps:
         return ranges, seen_from
 
     def _with_numpy(
-        self,
-        viewer: Robot,
-        lidar: LidarModel,
-        beam_time: float,
-        noise: Floats | None,
-        reach: float,
-        seen_from: Floats,
+        self, viewer: Robot, lidar: LidarModel, beam_time: float, noise: Floats | None, reach: float, seen_from: Floats
     ) -> Floats:
         """Compute the ranges without numba, and fill in `seen_from` if the viewer moved."""
         count, now = lidar.beams, self._population.now
@@ -179,9 +169,7 @@ class Sweeps:
         self._crates: list[Crate] = [
             each for each in everything.contacts.crates if each.shown and each.obstacle.name not in moving
         ]
-        self._movers: list[Mover] = [
-            each for each in everything.movers.values() if each.obstacle.name not in moving
-        ]
+        self._movers: list[Mover] = [each for each in everything.movers.values() if each.obstacle.name not in moving]
 
     def _moving_bodies(self) -> Iterator[tuple[str, Pose, float, PoseOnLeg | None]]:
         """Yield each body that may move: its name, pose, reach [m], and a function for its former poses."""
@@ -201,9 +189,7 @@ class Sweeps:
         if own is not None:
             robots, moment = [viewer, *robots], (self._moment, viewer.name)
             moved = 2 * (self._around[own, 2] + math.hypot(*lidar.mount[:2]))
-        return self._population.laser_view.of(
-            lidar, viewer, robots, self._crates, self._movers, moment, moved
-        )
+        return self._population.laser_view.of(lidar, viewer, robots, self._crates, self._movers, moment, moved)
 
     def _outlines(self, height: float) -> tuple[Ints, Floats, Floats]:
         """Return the outlines of the bodies that moved, each in its own frame: row ranges, segments and discs."""

@@ -109,14 +109,10 @@ def sweep(  # noqa: C901, PLR0912 - one function, because compiling each costs t
             for j in range(sides[k, 0], sides[k, 1]):
                 x1, y1 = turned(segments[j, 0], segments[j, 1], ax, ay, c, s)
                 x2, y2 = turned(segments[j, 2], segments[j, 3], ax, ay, c, s)
-                cast_segment(
-                    x1, y1, x2, y2, cos, sin, angle, step, reach, ranges, dx, dy, away, spread, low, high
-                )
+                cast_segment(x1, y1, x2, y2, cos, sin, angle, step, reach, ranges, dx, dy, away, spread, low, high)
             for j in range(sides[k, 2], sides[k, 3]):
                 x1, y1 = turned(discs[j, 0], discs[j, 1], ax, ay, c, s)
-                cast_disc(
-                    x1, y1, discs[j, 2], cos, sin, angle, step, reach, ranges, dx, dy, away, spread, low, high
-                )
+                cast_disc(x1, y1, discs[j, 2], cos, sin, angle, step, reach, ranges, dx, dy, away, spread, low, high)
     if back:
         for n in range(count // 2):
             ranges[n], ranges[count - 1 - n] = ranges[count - 1 - n], ranges[n]
@@ -158,21 +154,6 @@ def compiled() -> Callable[..., None]:
 
     line, table, numbers = read(f, 1), read(f, 2), read(i, 2)
     signature = numba.void(
-        i,
-        f,
-        f,
-        line,
-        read(i, 1),
-        line,
-        table,
-        numbers,
-        table,
-        table,
-        table,
-        table,
-        table,
-        line,
-        f[:, ::1],
-        f[::1],
+        i, f, f, line, read(i, 1), line, table, numbers, table, table, table, table, table, line, f[:, ::1], f[::1]
     )
     return machine_code(sweep, signature, (*HELPERS, arc, pose_at, turned, overlap))

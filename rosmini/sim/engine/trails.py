@@ -121,9 +121,7 @@ class Trails:
         self._legs = {name: list(legs) for name, legs in state.items()}
 
 
-def arc(
-    x: float, y: float, theta: float, wx: float, wy: float, turn: float, part: float
-) -> tuple[float, float, float]:
+def arc(x: float, y: float, theta: float, wx: float, wy: float, turn: float, part: float) -> tuple[float, float, float]:
     """Return the pose at the fraction `part` (0 to 1) of a circular arc.
 
     The arc starts at (x, y, theta) [m, rad], ends at (x + wx, y + wy) and turns by `turn` [rad].

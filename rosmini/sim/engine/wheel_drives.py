@@ -52,9 +52,7 @@ class Trajectory:
     Phases of constant acceleration until the wheel speeds reach their targets, then one of constant speed.
     """
 
-    def __init__(
-        self, robot: Drive, pose: Pose, state: WheelState, targets: Numbers, wheel_factors: Numbers
-    ) -> None:
+    def __init__(self, robot: Drive, pose: Pose, state: WheelState, targets: Numbers, wheel_factors: Numbers) -> None:
         self.pose, self.state, self.targets, self.wheel_factors = pose, state, targets, wheel_factors
         self._robot = robot
         (self._end, rates), *self._later = robot.phases(state, targets)
@@ -295,8 +293,7 @@ class HolonomicDrive(Drive):
 
 def _snap_to_targets(speeds: Numbers, targets: Numbers) -> Numbers:
     return tuple(
-        target if abs(speed - target) < ROUNDING else speed
-        for speed, target in zip(speeds, targets, strict=True)
+        target if abs(speed - target) < ROUNDING else speed for speed, target in zip(speeds, targets, strict=True)
     )
 
 

@@ -7,9 +7,7 @@ WHEELS = (
     "it drives a model by cmd_vel; rosmini has libgazebo_ros_diff_drive.so, libgazebo_ros_skid_steer_drive.so and "
     "libgazebo_ros_planar_move.so"
 )
-CLOUD = (
-    "it publishes what a laser of several layers sees; rosmini's lasers have one, by libgazebo_ros_laser.so"
-)
+CLOUD = "it publishes what a laser of several layers sees; rosmini's lasers have one, by libgazebo_ros_laser.so"
 PLACE = "it measures where a model is on the Earth; libgazebo_ros_p3d.so tells its place in the world"
 IMU = "it is an inertial measurement unit; rosmini has libgazebo_ros_imu.so and libgazebo_ros_imu_sensor.so"
 CAMERA = "it is a camera; rosmini has libgazebo_ros_camera.so and libgazebo_ros_depth_camera.so"

@@ -88,9 +88,7 @@ class GazeboClient(Pictured):
         """The number of models, and the position of each that is not static."""
         shown = self.snapshot()
         moving = [
-            f"{model.name} at ({model.pose[0]:.2f}, {model.pose[1]:.2f})"
-            for model in shown.models
-            if not model.static
+            f"{model.name} at ({model.pose[0]:.2f}, {model.pose[1]:.2f})" for model in shown.models if not model.static
         ]
         count = len(shown.models)
         there = f"{count} model{'' if count == 1 else 's'} in {shown.name}"

@@ -80,11 +80,7 @@ class _Conversion:
             plugins=tuple(tag for each in top for tag in plugins(each)),
             path=robot.path,
         )
-        lumped = {
-            name: (host, self._pose(np.eye(4), host, name))
-            for name, host in self.host.items()
-            if host != name
-        }
+        lumped = {name: (host, self._pose(np.eye(4), host, name)) for name, host in self.host.items() if host != name}
         wrong = tuple(note for notes in robot.left_out.values() for note in notes)
         return Converted(model, lumped, wrong)
 
@@ -116,9 +112,7 @@ class _Conversion:
                 at = self._pose(collision.origin.matrix, name, part.name)
                 called = f"{base}_collision{f'_{i}' if i else ''}"
                 collisions.append(
-                    SdfCollision(
-                        called, at, _geometry(collision.geometry), self._friction(part.name), part.line
-                    )
+                    SdfCollision(called, at, _geometry(collision.geometry), self._friction(part.name), part.line)
                 )
             for i, visual in enumerate(part.visuals):
                 at = self._pose(visual.origin.matrix, name, part.name)

@@ -218,13 +218,9 @@ class Model:
         self.world.host.catch_up()
         vx, vy, w = velocity
         if self.fixed is None:
-            for touch in self.world.engine.touching(
-                self.name if self.body is not None else self.obstacles[0]
-            ):
+            for touch in self.world.engine.touching(self.name if self.body is not None else self.obstacles[0]):
                 inwards = min(0.0, vx * touch.nx + vy * touch.ny)
-                if inwards and self.world.is_immovable(
-                    touch.other
-                ):  # it cannot be pushed, so this part is lost
+                if inwards and self.world.is_immovable(touch.other):  # it cannot be pushed, so this part is lost
                     vx, vy = vx - inwards * touch.nx, vy - inwards * touch.ny
         with contextlib.suppress(WorldError):
             self.world.move(self, self.pose, (vx, vy, w))

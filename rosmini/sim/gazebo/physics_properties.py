@@ -34,9 +34,7 @@ class PhysicsProperties(Parameters):
     simulated time always is. Gravity points down, or is zero. Raises `GazeboError` for other numbers.
     """
 
-    time_step: float = parameter(
-        0.001, "time step of the physics", unit="s", minimum=MIN_STEP_S, maximum=MAX_STEP_S
-    )
+    time_step: float = parameter(0.001, "time step of the physics", unit="s", minimum=MIN_STEP_S, maximum=MAX_STEP_S)
     max_update_rate: float = parameter(
         1000.0, "steps a second; 0: as fast as it can", unit="Hz", minimum=0.0, maximum=1e6
     )

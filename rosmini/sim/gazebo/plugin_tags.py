@@ -48,10 +48,7 @@ class Tags:
                 each = declared[child.tag]
                 values[each.name] = _value(child, types[each.name])
             elif child.tag not in COMMON and child.tag not in cls.ignored and ":" not in child.tag:
-                hint = (
-                    nearest(child.tag, (*declared, *COMMON))
-                    or f"its tags are: {', '.join(declared) or 'none'}"
-                )
+                hint = nearest(child.tag, (*declared, *COMMON)) or f"its tags are: {', '.join(declared) or 'none'}"
                 complain(f"{child.path}:{child.line}: <{child.tag}> means nothing to the plugin; {hint}")
         for name, each in declared.items():
             if each.name not in values and each.default is MISSING:

@@ -151,9 +151,7 @@ def plugin_class(filename: str) -> type[Plugin]:
     if found is None:
         known = plugin_filenames()
         hint = ABSENT.get(base) or nearest(filename, known) or f"there are: {', '.join(known)}"
-        raise UnknownPlugin(
-            f"Failed to load plugin {filename}: there is no plugin of this name in rosmini; {hint}"
-        )
+        raise UnknownPlugin(f"Failed to load plugin {filename}: there is no plugin of this name in rosmini; {hint}")
     return found
 
 

@@ -19,17 +19,7 @@ from rosmini.core.markup import Element
 from rosmini.sim.dragging import check_room
 from rosmini.sim.engine import Engine
 from rosmini.sim.host import Host
-from rosmini.sim.sdf import (
-    ORIGIN,
-    Pose6,
-    SdfLink,
-    SdfModel,
-    SdfPlugin,
-    SdfWorld,
-    converted,
-    placed_links,
-    to_obstacles,
-)
+from rosmini.sim.sdf import ORIGIN, Pose6, SdfLink, SdfModel, SdfPlugin, SdfWorld, converted, placed_links, to_obstacles
 from rosmini.sim.sdf.poses import compose as compose6
 from rosmini.sim.world import Obstacle, World
 
@@ -61,8 +51,7 @@ class ModelState:
     def spawned_like(self, model: Model) -> bool:
         """Return True if a model was spawned in the same way as this one."""
         return all(
-            is_equal(getattr(self, name), getattr(model, name))
-            for name in ("namespace", "start", "frames", "sdf")
+            is_equal(getattr(self, name), getattr(model, name)) for name in ("namespace", "start", "frames", "sdf")
         )
 
 
@@ -86,9 +75,7 @@ class RunningWorld(GazeboWorld):
 
     """
 
-    def __init__(
-        self, node: Node, source: World | SdfWorld, *, paused: bool = False, noise: float = 1.0
-    ) -> None:
+    def __init__(self, node: Node, source: World | SdfWorld, *, paused: bool = False, noise: float = 1.0) -> None:
         self.node = node
         self.noise = noise
         self.models = {}
@@ -206,9 +193,7 @@ class RunningWorld(GazeboWorld):
         """Restore the plugins and forces of the models in a restored engine."""
         for name, old in state.models.items():
             if name not in self.models:
-                self._insert(
-                    old.sdf, name, old.start, old.namespace, old.frames, check=False, there=old.obstacles
-                )
+                self._insert(old.sdf, name, old.start, old.namespace, old.frames, check=False, there=old.obstacles)
                 self._notify("insert", self.models[name])
             self.models[name].obstacles, self.models[name].fixed = old.obstacles, old.fixed
         self.models = {name: self.models[name] for name in state.models}
@@ -229,9 +214,7 @@ class RunningWorld(GazeboWorld):
         called = name or sdf.name
         where = sdf.pose if pose is None else compose6(pose, sdf.pose)
         self.host.catch_up()
-        model = self._insert(
-            replace(sdf, name=called, pose=ORIGIN), called, where, namespace, frames, check=True
-        )
+        model = self._insert(replace(sdf, name=called, pose=ORIGIN), called, where, namespace, frames, check=True)
         self._notify("insert", model)
         return model
 
@@ -257,9 +240,7 @@ class RunningWorld(GazeboWorld):
         for cls, tag in found:
             if issubclass(cls, ModelPlugin):
                 cls.prepare(body, tag.element, self.node.logwarn)
-        sensors = [
-            Sensor(model, each, link) for link, there, _ in placed_links(sdf) for each in there.sensors
-        ]
+        sensors = [Sensor(model, each, link) for link, there, _ in placed_links(sdf) for each in there.sensors]
         is_robot = body.drive or sensors or any(getattr(cls, "needs_robot", False) for cls, _ in found)
         if there is not None:
             model.body, model.obstacles = body if is_robot else None, there
@@ -272,11 +253,7 @@ class RunningWorld(GazeboWorld):
             self._load(model, found, sensors)
         except Exception as error:  # a plugin can raise anything
             self._remove(model)
-            why = (
-                error
-                if isinstance(error, RosminiError)
-                else f"a plugin raised {type(error).__name__}: {error}"
-            )
+            why = error if isinstance(error, RosminiError) else f"a plugin raised {type(error).__name__}: {error}"
             raise SpawnError(f"the model {name!r} cannot come into the world: {why}") from error
         return model
 
@@ -284,13 +261,9 @@ class RunningWorld(GazeboWorld):
         if not name:
             raise SpawnError("a model needs a name")
         if name in self.models:
-            raise SpawnError(
-                f"there is a model {name!r} already; delete it first, or give this one another name"
-            )
+            raise SpawnError(f"there is a model {name!r} already; delete it first, or give this one another name")
         if not all(math.isfinite(part) for part in pose):
-            raise SpawnError(
-                f"the model {name!r} cannot be placed at {pose}: all numbers of a pose must be finite"
-            )
+            raise SpawnError(f"the model {name!r} cannot be placed at {pose}: all numbers of a pose must be finite")
 
     def _add_robot(self, model: Model, body: Body) -> None:
         x, y, _, _, _, yaw = model.start
@@ -317,9 +290,7 @@ class RunningWorld(GazeboWorld):
         plugins = self.model_plugins[model.name] = []
         for sensor in sensors:
             model.sensors.append(sensor)
-            of_sensor = self._plugin_classes(
-                sensor.sdf.plugins, f"the sensor {sensor.device_name!r}", SensorPlugin
-            )
+            of_sensor = self._plugin_classes(sensor.sdf.plugins, f"the sensor {sensor.device_name!r}", SensorPlugin)
             for cls, tag in of_sensor:
                 plugin = cls(self, f"{sensor.device_name}/{tag.name or tag.filename}")
                 try:

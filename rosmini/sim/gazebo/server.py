@@ -62,9 +62,7 @@ class _Parser(argparse.ArgumentParser):
 def server_parser(prog: str = "gzserver") -> argparse.ArgumentParser:
     """Return the parser of gzserver's arguments."""
     parser = _Parser(prog=prog, add_help=False, description="Gazebo's server.")
-    parser.add_argument(
-        "world", nargs="?", default=EMPTY, help="an SDF world file, or one of rosmini's worlds"
-    )
+    parser.add_argument("world", nargs="?", default=EMPTY, help="an SDF world file, or one of rosmini's worlds")
     parser.add_argument("-u", "--pause", action="store_true", help="start paused")
     parser.add_argument("--verbose", action="store_true", help="say more")
     parser.add_argument("-e", "--physics", default="ode", help="the physics engine; all are rosmini's here")
@@ -95,9 +93,7 @@ class GazeboServer(Pictured, Simulation):
     node_name = "gazebo"
     program = "gazebo_ros/gzserver"
 
-    def __init__(
-        self, node: Node, *args: str, world: World | SdfWorld | str | None = None, noise: float = 1.0
-    ) -> None:
+    def __init__(self, node: Node, *args: str, world: World | SdfWorld | str | None = None, noise: float = 1.0) -> None:
         options = server_parser().parse_args(args)
         source = options.world if world is None else world
         found = source if isinstance(source, (World, SdfWorld)) else load_world(source)
@@ -107,9 +103,7 @@ class GazeboServer(Pictured, Simulation):
                 "all of which are rosmini's here"
             )
         if options.record:
-            node.logwarn(
-                "gzserver -r records a log of Gazebo's own; here `rosbag record` records what happens"
-            )
+            node.logwarn("gzserver -r records a log of Gazebo's own; here `rosbag record` records what happens")
         self.world = RunningWorld(node, found, paused=options.pause, noise=noise)
         self.clock = ClockDevice(self.world.host, rate=_rate(node))
         self.master = GazeboMaster(self.world, self.clock.publish_now)

@@ -81,9 +81,7 @@ class Services:
             "reset_simulation": (world.reset_models, world.host.reset_time),
         }
         for name, actions in empty.items():
-            world.node.service(
-                f"~{name}", service_class("std_srvs/Empty"), functools.partial(self._empty, actions)
-            )
+            world.node.service(f"~{name}", service_class("std_srvs/Empty"), functools.partial(self._empty, actions))
         for name, kind, handler in (
             ("spawn_urdf_model", "SpawnModel", self.spawn_urdf),
             ("spawn_sdf_model", "SpawnModel", self.spawn_sdf),
@@ -156,17 +154,12 @@ class Services:
         name, other = request.model_name, request.relative_entity_name
         with refusing_with("GetModelState: model does not exist:"):
             model = self.world.model(name)
-        with refusing_with(
-            f"GetModelState: reference relative_entity_name not found, {SCOPE.format('body')}"
-        ):
+        with refusing_with(f"GetModelState: reference relative_entity_name not found, {SCOPE.format('body')}"):
             pose, velocity = relative((model.pose, model.velocity), self.world.frame(other))
         seq = self._counts[name] = self._counts.get(name, 0) + 1
         header = message_class("std_msgs/Header")(seq=seq, stamp=self.world.host.stamp, frame_id=other)
         return success(
-            "GetModelState: got properties",
-            header=header,
-            pose=pose_message(pose),
-            twist=twist_message(velocity),
+            "GetModelState: got properties", header=header, pose=pose_message(pose), twist=twist_message(velocity)
         )
 
     @answer_refusals

@@ -49,13 +49,10 @@ def _model(model: SdfModel) -> Element:
 def _link(link: SdfLink) -> Element:
     own = link.inertial
     names = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
-    inertia = _element(
-        "inertia", *(_value(name, each) for name, each in zip(names, own.inertia, strict=True))
-    )
+    inertia = _element("inertia", *(_value(name, each) for name, each in zip(names, own.inertia, strict=True)))
     inertial = _element("inertial", *_pose(own.pose), _value("mass", own.mass), inertia)
     shapes = [
-        _element("collision", *_pose(each.pose), _geometry(each.geometry), name=each.name)
-        for each in link.collisions
+        _element("collision", *_pose(each.pose), _geometry(each.geometry), name=each.name) for each in link.collisions
     ]
     for visual in link.visuals:
         colour = visual.colour
@@ -63,9 +60,7 @@ def _link(link: SdfLink) -> Element:
         if colour is not None:
             parts = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
             material = [_element("material", _value("diffuse", *(round(part, 4) for part in parts), 1.0))]
-        shapes.append(
-            _element("visual", *_pose(visual.pose), _geometry(visual.geometry), *material, name=visual.name)
-        )
+        shapes.append(_element("visual", *_pose(visual.pose), _geometry(visual.geometry), *material, name=visual.name))
     sensors = []
     for sensor in link.sensors:
         inside = [each for each in sensor.element if each.tag != "pose"]

@@ -204,9 +204,7 @@ class GazeboMaster:
 
     def topics(self) -> dict[str, str]:
         """Return the topics, sorted, each with its type: `gz topic -l`."""
-        return {
-            self._prefix + name: f"gazebo.msgs.{kind}" * bool(kind) for name, (kind, _, _) in TOPICS.items()
-        }
+        return {self._prefix + name: f"gazebo.msgs.{kind}" * bool(kind) for name, (kind, _, _) in TOPICS.items()}
 
     def info(self, topic: str) -> TopicInfo:
         """Return the publishers and subscribers of a topic: `gz topic -i`. Raises `GazeboError` if it is unknown."""

@@ -87,9 +87,7 @@ class Wrenches:
             span = min(now, wrench.end) - max(now - dt, wrench.start)
             if span > 1e-9:
                 (vx, vy, w), (fx, fy) = model.velocity, wrench.force
-                model.set_velocity(
-                    (vx + fx * span / mass, vy + fy * span / mass, w + wrench.torque * span / inertia)
-                )
+                model.set_velocity((vx + fx * span / mass, vy + fy * span / mass, w + wrench.torque * span / inertia))
         self._schedule()
 
     def _is_there(self, model: Model) -> bool:

@@ -31,10 +31,7 @@ _STEP = np.array([(1, 0), (0, 1), (-1, 0), (0, -1)])  # directions 0 to 3: each 
 
 
 def trace(
-    occupied: ArrayLike,
-    resolution: float,
-    origin: Pose = (0.0, 0.0, 0.0),
-    tolerance: float | None = None,
+    occupied: ArrayLike, resolution: float, origin: Pose = (0.0, 0.0, 0.0), tolerance: float | None = None
 ) -> Floats:
     """Return closed outlines of the occupied cells as segments (n, 4), each x1, y1, x2, y2 [m], cells on their left.
 
@@ -117,17 +114,10 @@ def _edges(cells: NDArray[np.bool_]) -> tuple[Loop, Loop, Loop]:
     """Return edges between an occupied cell, on the left, and a free one: start (n, 2), direction, next edge."""
     padded = np.pad(cells, 1)
     inner = padded[1:-1, 1:-1]
-    neighbours = (
-        padded[:-2, 1:-1],
-        padded[1:-1, 2:],
-        padded[2:, 1:-1],
-        padded[1:-1, :-2],
-    )  # below, right, above, left
+    neighbours = (padded[:-2, 1:-1], padded[1:-1, 2:], padded[2:, 1:-1], padded[1:-1, :-2])  # below, right, above, left
     width = cells.shape[1] + 1
     keys = []
-    for direction, (neighbour, (dx, dy)) in enumerate(
-        zip(neighbours, ((0, 0), (1, 0), (1, 1), (0, 1)), strict=True)
-    ):
+    for direction, (neighbour, (dx, dy)) in enumerate(zip(neighbours, ((0, 0), (1, 0), (1, 1), (0, 1)), strict=True)):
         rows, columns = np.nonzero(inner & ~neighbour)
         keys.append(((rows + dy) * width + columns + dx) * 4 + direction)
     edges = np.sort(np.concatenate(keys)).astype(np.int64)

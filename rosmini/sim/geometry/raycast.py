@@ -233,9 +233,7 @@ def _chosen(name: str | None, rays: int) -> str:
     if wanted not in BACKENDS:
         source = "" if name else f" (from the environment variable {VARIABLE})"
         there = " and ".join(BACKENDS)
-        msg = (
-            f"there is no raycast backend {wanted!r}{source}; there are {there}. {nearest(wanted, BACKENDS)}"
-        )
+        msg = f"there is no raycast backend {wanted!r}{source}; there are {there}. {nearest(wanted, BACKENDS)}"
         raise GeometryError(msg.rstrip())
     return wanted
 

@@ -60,9 +60,7 @@ def cast(
             low, high = segment_rays[n, 0], segment_rays[n, 1]
         x1, y1 = segments[n, 0] - x, segments[n, 1] - y
         x2, y2 = segments[n, 2] - x, segments[n, 3] - y
-        cast_segment(
-            x1, y1, x2, y2, cos, sin, first, step, max_range, ranges, dx, dy, away, spread, low, high
-        )
+        cast_segment(x1, y1, x2, y2, cos, sin, first, step, max_range, ranges, dx, dy, away, spread, low, high)
     low, high = 0, len(ranges)
     for n in range(discs.shape[0]):
         if disc_rays.shape[0]:

@@ -142,13 +142,7 @@ def _distances(segments: Floats) -> Floats:
 
 
 def _pairs(
-    starts: Floats,
-    widths: Floats,
-    near: NDArray[np.bool_],
-    first: float,
-    step: float,
-    count: int,
-    rays: Ints,
+    starts: Floats, widths: Floats, near: NDArray[np.bool_], first: float, step: float, count: int, rays: Ints
 ) -> Iterator[tuple[Ints, Ints]]:
     """Yield pairs of a sector and a ray in it, as two arrays of indices.
 

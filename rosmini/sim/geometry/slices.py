@@ -153,9 +153,7 @@ def pieces(outlines: list[Floats]) -> list[Floats]:
     sides = np.vstack([polygons.sides_of(outline) for outline in outlines])
     heights = np.unique(np.concatenate([sides[:, 1], _crossing_heights(sides)]))
     if len(heights) * len(sides) > MAX_SPLITS:
-        msg = (
-            f"outlines of {len(sides)} sides have {len(heights)} heights of vertices and crossings: too many"
-        )
+        msg = f"outlines of {len(sides)} sides have {len(heights)} heights of vertices and crossings: too many"
         raise GeometryError(msg)
     found = []
     for low, high in pairwise(heights):
@@ -168,9 +166,7 @@ def pieces(outlines: list[Floats]) -> list[Floats]:
         below, above = x1 + (low - y1) * slope, x1 + (high - y1) * slope
         order = np.argsort(below + above, kind="stable")
         for left, right in zip(order[::2], order[1::2], strict=False):
-            corners = np.array(
-                [(below[left], low), (below[right], low), (above[right], high), (above[left], high)]
-            )
+            corners = np.array([(below[left], low), (below[right], low), (above[right], high), (above[left], high)])
             corners = corners[(np.abs(corners - np.roll(corners, 1, axis=0)) > 1e-9).any(axis=1)]
             if len(corners) >= 3 and polygons.area(corners) > 1e-12:
                 found.append(corners)

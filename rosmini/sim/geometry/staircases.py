@@ -110,9 +110,7 @@ def _possible_sides(places: _Places, margin: float) -> _Sides:
         length = np.abs(part).sum(axis=1)
         way[alive] += length
         v = points[here] - points[alive]
-        climbs = (
-            np.abs(v).sum(axis=1) > way[alive] - 0.25
-        )  # it never turned back; lengths are multiples of a half
+        climbs = np.abs(v).sum(axis=1) > way[alive] - 0.25  # it never turned back; lengths are multiples of a half
         keep = climbs & (skip < size)
         alive, here, v, e = alive[keep], here[keep], v[keep], (part / length[:, None])[keep]
         if skip == 1:
@@ -204,9 +202,7 @@ def _shortest(places: _Places, sides: _Sides, anchors: Ints) -> list[Floats]:
     before = [-1] * len(total)
     for node in base.tolist():
         total[node] = 0.0
-    for start, end, cost in zip(
-        starts[order].tolist(), ends[order].tolist(), costs[order].tolist(), strict=True
-    ):
+    for start, end, cost in zip(starts[order].tolist(), ends[order].tolist(), costs[order].tolist(), strict=True):
         if total[start] + cost < total[end]:
             total[end] = total[start] + cost
             before[end] = start

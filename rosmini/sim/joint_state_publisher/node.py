@@ -86,8 +86,7 @@ class JointStatePublisher:
     def _heard(self, state: Any) -> None:
         for i, name in enumerate(state.name):
             values = [
-                float(each[i]) if i < len(each) else None
-                for each in (state.position, state.velocity, state.effort)
+                float(each[i]) if i < len(each) else None for each in (state.position, state.velocity, state.effort)
             ]
             self.positions.take(name, *values)
 

@@ -41,9 +41,7 @@ if TYPE_CHECKING:
 
     Steps: TypeAlias = "Generator[Steps, Value | None, Value | None]"
 
-_DEEP = (
-    "stopped: over {} calls wait for one another. Does a procedure call itself without a condition to stop?"
-)
+_DEEP = "stopped: over {} calls wait for one another. Does a procedure call itself without a condition to stop?"
 
 
 class Logo:
@@ -383,7 +381,5 @@ CONTROL = (
 )  # fmt: skip
 """Primitives that run lists or end procedures."""
 
-PRIMITIVES: dict[str, Primitive] = {
-    name: each for each in (*TABLE, *CONTROL) for name in (each.name, *each.short)
-}
+PRIMITIVES: dict[str, Primitive] = {name: each for each in (*TABLE, *CONTROL) for name in (each.name, *each.short)}
 """All primitives by all their names."""

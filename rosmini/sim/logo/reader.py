@@ -199,9 +199,7 @@ _SIGN = 4
 """A sign binds more strongly than any operator."""
 
 
-def parse(
-    line: LogoList, primitives: Mapping[str, Primitive], procedures: Mapping[str, Procedure]
-) -> list[Expression]:
+def parse(line: LogoList, primitives: Mapping[str, Primitive], procedures: Mapping[str, Procedure]) -> list[Expression]:
     """Return the instructions of a line or of a list that is run. Raises ``LogoError``."""
     parser = _Parser(line, primitives, procedures)
     found = []

@@ -49,9 +49,7 @@ class WindowTurtle(Turtle):
     def __init__(self, node: Node, name: str, strokes: list[Stroke]) -> None:
         super().__init__(name, strokes)
         self.node = node
-        self._teleport = node.service_client(
-            f"/{name}{TELEPORT}", service_class("turtlesim/TeleportAbsolute")
-        )
+        self._teleport = node.service_client(f"/{name}{TELEPORT}", service_class("turtlesim/TeleportAbsolute"))
         self._set_pen = node.service_client(f"/{name}/set_pen", service_class("turtlesim/SetPen"))
         self.refresh()
         if self.goal == Pose(HOME.x, HOME.y, 90.0):  # the initial pose in turtlesim
@@ -63,19 +61,13 @@ class WindowTurtle(Turtle):
     def refresh(self) -> None:
         """Update the pose if another node has moved the turtle, and set the pen again."""
         try:
-            found = self.node.wait_for_message(
-                f"/{self.name}/pose", message_class("turtlesim/Pose"), PATIENCE
-            )
+            found = self.node.wait_for_message(f"/{self.name}/pose", message_class("turtlesim/Pose"), PATIENCE)
         except ROSException as error:
             raise LogoError(f"the turtle {self.name} does not publish its pose: {error}") from error
         x, y, theta = self._window(self.goal)
         turned = math.remainder(found.theta - theta, math.tau)
         if max(abs(found.x - x), abs(found.y - y), abs(turned)) > NEAR:
-            parts = (
-                (found.x - MIDDLE) * METRE,
-                (found.y - MIDDLE) * METRE,
-                (90.0 - math.degrees(found.theta)) % 360.0,
-            )
+            parts = ((found.x - MIDDLE) * METRE, (found.y - MIDDLE) * METRE, (90.0 - math.degrees(found.theta)) % 360.0)
             self.goal = Pose(*(round(part, 3) + 0.0 for part in parts))
         self.send_pen()
 

@@ -6,10 +6,4 @@ from .chain import Chain, joint_transform
 from .description import read_description
 from .node import RobotStatePublisher, RobotStatePublisherParameters
 
-__all__ = [
-    "Chain",
-    "RobotStatePublisher",
-    "RobotStatePublisherParameters",
-    "joint_transform",
-    "read_description",
-]
+__all__ = ["Chain", "RobotStatePublisher", "RobotStatePublisherParameters", "joint_transform", "read_description"]

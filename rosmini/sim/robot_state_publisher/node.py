@@ -31,12 +31,8 @@ class RobotStatePublisherParameters(Parameters):
     allowed: ClassVar[tuple[str, ...]] = (NAME, "tf_prefix")
 
     publish_frequency: float = parameter(50.0, "how often a joint is told at most", unit="Hz")
-    use_tf_static: bool = parameter(
-        True, "fixed joints are told once, on /tf_static, and not over and over on /tf"
-    )
-    ignore_timestamp: bool = parameter(
-        False, "tell of every message of joint_states, however soon after the last"
-    )
+    use_tf_static: bool = parameter(True, "fixed joints are told once, on /tf_static, and not over and over on /tf")
+    ignore_timestamp: bool = parameter(False, "tell of every message of joint_states, however soon after the last")
 
 
 class RobotStatePublisher:
@@ -64,21 +60,15 @@ class RobotStatePublisher:
         for doubt in self.robot.notes:
             node.logwarn(doubt)
         for name in self.chain.floating:
-            node.loginfo(
-                f"Floating joint {name}: joint_states cannot contain its pose, so no transform is published"
-            )
+            node.loginfo(f"Floating joint {name}: joint_states cannot contain its pose, so no transform is published")
         self._broadcaster = TransformBroadcaster(node, self.prefix)
         period = self.interval_ns / SECOND_NS
         if self.parameters.use_tf_static:
             static = StaticTransformBroadcaster(node, self.prefix)
-            node.timer(
-                period, lambda _: self._send(static, self.chain.fixed, node.clock.now_ns()), oneshot=True
-            )
+            node.timer(period, lambda _: self._send(static, self.chain.fixed, node.clock.now_ns()), oneshot=True)
         else:
             node.timer(period, lambda _: self._send_fixed())
-        node.subscriber(
-            "joint_states", message_class("sensor_msgs/JointState"), self._heard, queue_size=1, numpy=False
-        )
+        node.subscriber("joint_states", message_class("sensor_msgs/JointState"), self._heard, queue_size=1, numpy=False)
 
     def __repr__(self) -> str:
         return f"<RobotStatePublisher {self.node.name} of {self.robot.name}>"
@@ -107,15 +97,11 @@ class RobotStatePublisher:
                     f"ignored a JointState with {len(names)} names and {len(positions)} positions: as many are needed"
                 )
             elif names:
-                self.node.logwarn(
-                    f"ignored a JointState of {names[0]!r} and others without positions", throttle=300.0
-                )
+                self.node.logwarn(f"ignored a JointState of {names[0]!r} and others without positions", throttle=300.0)
             return
         now, stamp = self.node.clock.now_ns(), state.header.stamp.to_nsec()
         if self._last_ns > now:
-            self.node.logwarn(
-                "Time moved backwards, as a clock or a bag that starts again: telling all joints again"
-            )
+            self.node.logwarn("Time moved backwards, as a clock or a bag that starts again: telling all joints again")
             self._last_stamps.clear()
         self._last_ns = now
         if stamp + OLD_NS < now:
@@ -128,8 +114,6 @@ class RobotStatePublisher:
                 self._unknown.add(name)
                 hint = nearest(name, self.robot.joints)
                 more = f": {hint}" if hint else ""
-                self.node.logwarn(
-                    f"joint_states contains {name}, which {self.robot.name!r} does not have{more}"
-                )
+                self.node.logwarn(f"joint_states contains {name}, which {self.robot.name!r} does not have{more}")
         self._send(self._broadcaster, self.chain.transforms(dict(zip(names, positions, strict=True))), stamp)
         self._last_stamps.update(dict.fromkeys(names, stamp))

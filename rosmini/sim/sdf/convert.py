@@ -59,15 +59,10 @@ def converted(world: SdfWorld, *, title: str = "") -> tuple[World, tuple[Note, .
     meshes = Meshes()
     obstacles = [each for model in world.models for each in _obstacles(model, model.pose, notes, meshes)]
     obstacles += [to_walker(actor) for actor in world.actors]
-    starts = tuple(
-        (pose[0], pose[1], pose[5]) for name, pose in world.frames if name.lower().startswith(START)
-    )
+    starts = tuple((pose[0], pose[1], pose[5]) for name, pose in world.frames if name.lower().startswith(START))
     try:
         made = World(
-            world.name,
-            tuple(obstacles),
-            starts=starts or ((0.0, 0.0, 0.0),),
-            title=title or f"The world {world.name}",
+            world.name, tuple(obstacles), starts=starts or ((0.0, 0.0, 0.0),), title=title or f"The world {world.name}"
         )
     except WorldError as error:
         raise SdfError(str(error), world.path, world.line) from error
@@ -109,9 +104,7 @@ def to_walker(actor: SdfActor) -> Obstacle:
             if actor.loop and len(points) > 2 and math.dist(points[0], points[-1]) < 1e-6:
                 points.pop()
             wait = sum(waits) / (len(points) if actor.loop else len(points) - 1)
-            motion = Walk(
-                tuple(points), length / walked if walked > 0 else Walk.speed, round(wait, 6), actor.loop
-            )
+            motion = Walk(tuple(points), length / walked if walked > 0 else Walk.speed, round(wait, 6), actor.loop)
         return Obstacle(actor.name, WALKER, (x, y, yaw), WALKER_HEIGHT, WALKER_COLOUR, motion=motion)
     except WorldError as error:
         raise SdfError(f"the actor {actor.name!r}: {error}", actor.path, actor.line) from error
@@ -137,11 +130,7 @@ def _obstacles(model: SdfModel, pose: Pose6, notes: list[Note], meshes: Meshes) 
             return []
         if motion is None and any(joint.type != "fixed" for joint in _joints(model)):
             notes.append(
-                Note(
-                    model.path,
-                    model.line,
-                    f"the joints of the model {model.name!r} are held: it moves as one",
-                )
+                Note(model.path, model.line, f"the joints of the model {model.name!r} are held: it moves as one")
             )
         return [_one(model, (pose[0], pose[1], pose[5]), motion, found)]
     except WorldError as error:
@@ -159,9 +148,7 @@ def _fixed(model: SdfModel, found: list[_Piece]) -> list[Obstacle]:
         called = f"{name} {seen[name]}" if counts[name] > 1 else name
         whole = model.name if len(found) == 1 else f"{model.name}::{called}"
         solid = each.solid
-        obstacles.append(
-            Obstacle(whole, solid.shape, solid.pose, solid.top, each.colour, bottom=solid.bottom)
-        )
+        obstacles.append(Obstacle(whole, solid.shape, solid.pose, solid.top, each.colour, bottom=solid.bottom))
     return obstacles
 
 
@@ -195,9 +182,7 @@ def _one(model: SdfModel, pose: Pose, motion: Motion | None, found: list[_Piece]
 # ---- the solid parts of a model ----
 
 
-def _pieces(
-    model: SdfModel, pose: Pose6, notes: list[Note], meshes: Meshes, *, sliced: bool
-) -> Iterator[_Piece]:
+def _pieces(model: SdfModel, pose: Pose6, notes: list[Note], meshes: Meshes, *, sliced: bool) -> Iterator[_Piece]:
     """Yield the solid parts of a model and its nested models, above the ground, at a pose."""
     for name, link, place in placed_links(model, pose):
         for collision in link.collisions:
@@ -232,11 +217,7 @@ def _colour(collision: SdfCollision, link: SdfLink) -> str:
     coloured = [visual for visual in link.visuals if visual.colour is not None]
     alike = [
         *(each for each in coloured if each.name == collision.name),
-        *(
-            each
-            for each in coloured
-            if each.pose == collision.pose and each.geometry.kind == collision.geometry.kind
-        ),
+        *(each for each in coloured if each.pose == collision.pose and each.geometry.kind == collision.geometry.kind),
         *coloured,
     ]
     if not alike or alike[0].colour is None:

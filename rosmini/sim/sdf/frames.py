@@ -83,9 +83,7 @@ class Scope:
             raise asked.error(f"there is no frame {name!r} in {self.what}; {hint}")
         if name in self._open:
             circle = " -> ".join([*self._open[self._open.index(name) :], name])
-            raise (asked or pose.element or Element("pose")).error(
-                f"poses hang on one another in a circle: {circle}"
-            )
+            raise (asked or pose.element or Element("pose")).error(f"poses hang on one another in a circle: {circle}")
         if len(self._open) == MAX_CHAIN_LENGTH:
             raise (asked or pose.element or Element("pose")).error(
                 f"poses are relative to one another in a chain of more than {MAX_CHAIN_LENGTH}"

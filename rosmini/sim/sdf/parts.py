@@ -122,9 +122,7 @@ def unique(elements: list[Element], what: str) -> list[Element]:
     for each in elements:
         name = name_of(each)
         if name in seen:
-            raise each.error(
-                f"there is another {what} {name!r} in line {seen[name].line}; give each its own name"
-            )
+            raise each.error(f"there is another {what} {name!r} in line {seen[name].line}; give each its own name")
         seen[name] = each
     return elements
 
@@ -151,9 +149,7 @@ def link(element: Element, scope: Scope, reading: Reading) -> SdfLink:
         name_of(element),
         here,
         _inertial(element.find("inertial"), scope, here, reading),
-        tuple(
-            _collision(each, scope, here, reading) for each in unique(element.all("collision"), "collision")
-        ),
+        tuple(_collision(each, scope, here, reading) for each in unique(element.all("collision"), "collision")),
         tuple(_visual(each, scope, here, reading) for each in unique(element.all("visual"), "visual")),
         tuple(sensor(each, scope, here) for each in unique(element.all("sensor"), "sensor")),
         element.line,
@@ -172,9 +168,7 @@ def joint(element: Element, scope: Scope) -> SdfJoint:
     at = given(element)
     pose = scope.seen_from(scope.place(child), at) if child in scope else at.pose
     kind = element.attribute("type")
-    return SdfJoint(
-        name_of(element), kind, parent, child, pose, (xyz[0], xyz[1], xyz[2]), element, element.line
-    )
+    return SdfJoint(name_of(element), kind, parent, child, pose, (xyz[0], xyz[1], xyz[2]), element, element.line)
 
 
 def _end(element: Element) -> str:
@@ -186,9 +180,7 @@ def _inertial(element: Element | None, scope: Scope, here: Pose6, reading: Readi
         return SdfInertial()
     mass = number(element, "mass", 1.0, most=MAX_MASS_KG)
     if mass <= 0:
-        reading.note(
-            element.need("mass"), f"a mass is more than 0 kg, not {mass:g}: taken for 1 kg", warning=True
-        )
+        reading.note(element.need("mass"), f"a mass is more than 0 kg, not {mass:g}: taken for 1 kg", warning=True)
         mass = 1.0
     names = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
     defaults = (1.0, 1.0, 1.0, 0.0, 0.0, 0.0)
@@ -199,9 +191,7 @@ def _inertial(element: Element | None, scope: Scope, here: Pose6, reading: Readi
     for name, value in (("ixx", ixx), ("iyy", iyy), ("izz", izz)):
         if value <= 0:
             wrong = element.need("inertia").need(name)
-            reading.note(
-                wrong, f"{name} is more than 0 kg m2, not {value:g}: all are taken for 1 kg m2", warning=True
-            )
+            reading.note(wrong, f"{name} is more than 0 kg m2, not {value:g}: all are taken for 1 kg m2", warning=True)
             ixx, iyy, izz, ixy, ixz, iyz = defaults
             break
     return SdfInertial(mass, scope.seen_from(here, given(element)), (ixx, iyy, izz, ixy, ixz, iyz))
@@ -284,9 +274,7 @@ def geometry(element: Element, reading: Reading) -> SdfGeometry:
     shape = shapes[0]
     if shape.tag == "polyline":
         drawn = [_polyline(each, reading) for each in element.all("polyline")]
-        return SdfGeometry(
-            "polyline", length=drawn[0][1], outlines=tuple(each[0] for each in drawn), line=shape.line
-        )
+        return SdfGeometry("polyline", length=drawn[0][1], outlines=tuple(each[0] for each in drawn), line=shape.line)
     return _READERS[shape.tag](shape, reading)
 
 
@@ -301,9 +289,7 @@ def _sizes(element: Element, tag: str, reading: Reading, count: int = 1) -> tupl
     if min(values) < 0:
         raise child.error(f"the {tag} of a {element.tag} is more than 0 m, not {child.text}")
     if min(values) == 0:
-        reading.note(
-            child, f"the {tag} of a {element.tag} is 0 m: {THINNEST * 1000:g} mm is taken", warning=True
-        )
+        reading.note(child, f"the {tag} of a {element.tag} is 0 m: {THINNEST * 1000:g} mm is taken", warning=True)
     return tuple(value or THINNEST for value in values)
 
 

@@ -67,9 +67,7 @@ def inverse(pose: Pose6) -> Pose6:
     return pose6(back)
 
 
-def placed_links(
-    model: SdfModel, pose: Pose6 = ORIGIN, inside: str = ""
-) -> Iterator[tuple[str, SdfLink, Pose6]]:
+def placed_links(model: SdfModel, pose: Pose6 = ORIGIN, inside: str = "") -> Iterator[tuple[str, SdfLink, Pose6]]:
     """Yield each link of a model and its nested models: its name, the link, and its pose with the model at `pose`."""
     for link in model.links:
         yield inside + link.name, link, compose(pose, link.pose)
@@ -79,9 +77,7 @@ def placed_links(
 
 def upright(pose: Pose6, tolerance: float = 1e-6) -> bool:
     """Return True if the z axis of a pose points straight up."""
-    return (
-        math.cos(pose[3]) * math.cos(pose[4]) >= 1 - tolerance**2 / 2 and abs(math.sin(pose[4])) <= tolerance
-    )
+    return math.cos(pose[3]) * math.cos(pose[4]) >= 1 - tolerance**2 / 2 and abs(math.sin(pose[4])) <= tolerance
 
 
 def quaternion(roll: float, pitch: float, yaw: float) -> tuple[float, float, float, float]:

@@ -99,10 +99,7 @@ def _world(element: Element, reading: Reading) -> SdfWorld:
         _physics(element),
         _gravity(element),
         plugins(element),
-        tuple(
-            (name_of(each), scope.place(name_of(each), each))
-            for each in unique(element.all("frame"), "frame")
-        ),
+        tuple((name_of(each), scope.place(name_of(each), each)) for each in unique(element.all("frame"), "frame")),
         path=element.path,
         line=element.line,
         warnings=tuple(note for note in reading.notes if note.warning),
@@ -180,9 +177,7 @@ def _state(element: Element, things: list[SdfModel | SdfActor]) -> list[SdfModel
 def _model(element: Element, pose: Pose6, reading: Reading, depth: int) -> SdfModel:
     """Return a model at a pose that is already resolved."""
     if depth > MAX_DEPTH:
-        raise element.error(
-            f"models stand inside one another deeper than {MAX_DEPTH}: does one include itself?"
-        )
+        raise element.error(f"models stand inside one another deeper than {MAX_DEPTH}: does one include itself?")
     reading.unknown(element, MODEL_TAGS)
     name = name_of(element)
     scope = Scope("__model__", what=f"the model {name!r}")
@@ -195,8 +190,7 @@ def _model(element: Element, pose: Pose6, reading: Reading, depth: int) -> SdfMo
         for each in unique(element.all("model"), "model")
     ]
     nested += [
-        _include(each, inner, scope.place(_include_name(each, inner)), reading, depth + 1)
-        for each, inner in included
+        _include(each, inner, scope.place(_include_name(each, inner)), reading, depth + 1) for each, inner in included
     ]
     for model in nested:
         for inner, place in _inside(model):
@@ -238,9 +232,7 @@ def _included(element: Element, reading: Reading, depth: int) -> list[tuple[Elem
         try:
             found.append((each, _inner(each, reading, depth)))
         except MissingError as error:
-            reading.note(
-                each.need("uri"), f"this model is left out: {error.message}", warning=True, left_out="a model"
-            )
+            reading.note(each.need("uri"), f"this model is left out: {error.message}", warning=True, left_out="a model")
     return found
 
 
@@ -248,9 +240,7 @@ def _inner(element: Element, reading: Reading, depth: int) -> Element:
     """Return the model or actor in the file that an `<include>` names."""
     uri = element.need("uri")
     if depth > MAX_DEPTH:
-        raise uri.error(
-            f"files include one another deeper than {MAX_DEPTH}: does {shown(uri.text)} include itself?"
-        )
+        raise uri.error(f"files include one another deeper than {MAX_DEPTH}: does {shown(uri.text)} include itself?")
     path = reading.resources.model_file(uri.text, uri)
     root = reading.include(uri, path)
     if root.tag not in ("sdf", "gazebo"):
@@ -297,9 +287,7 @@ def _actor(element: Element, scope: Scope, reading: Reading) -> SdfActor:
     script = element.find("script")
     ways = script.all("trajectory") if script is not None else []
     if len(ways) > 1:
-        reading.note(
-            ways[1], "an actor follows its first trajectory alone: left out", left_out="a trajectory"
-        )
+        reading.note(ways[1], "an actor follows its first trajectory alone: left out", left_out="a trajectory")
     waypoints = []
     for each in ways[0].all("waypoint") if ways else []:
         moment = number(each, "time", 0.0)

@@ -71,9 +71,7 @@ class Resources:
         scheme, mark, rest = uri.strip().partition("://")
         if not mark:
             return _there(_beside(asked) / uri.strip(), uri, asked)
-        if (
-            scheme in ("http", "https") and "/models/" in rest
-        ):  # on Gazebo's model server; its ground and sun are here
+        if scheme in ("http", "https") and "/models/" in rest:  # on Gazebo's model server; its ground and sun are here
             name = rest.partition("/models/")[2].replace("%20", " ").replace(" ", "_").lower()
             here = assets_dir() / "ros" / "turtlebot3_gazebo" / "models" / name
             if name and here.is_dir():

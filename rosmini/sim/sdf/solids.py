@@ -150,11 +150,7 @@ def _cylinder(geometry: SdfGeometry, pose: Pose6) -> Found:
     ring = np.stack([r * np.cos(angles), r * np.sin(angles)], axis=1)
     ends = np.vstack([np.column_stack([ring, np.full(ROUND, z)]) for z in (-half, half)])
     lying = abs(matrix(pose)[2, 2]) < 1e-6
-    note = (
-        "lies on its side; it is replaced with its shadow, as wide at every height"
-        if lying
-        else _aslant(pose)
-    )
+    note = "lies on its side; it is replaced with its shadow, as wide at every height" if lying else _aslant(pose)
     return _shadow(_moved(ends, pose)), note
 
 
@@ -167,9 +163,7 @@ def _plane(geometry: SdfGeometry, pose: Pose6) -> Found:
     up = matrix_product(matrix(pose)[:3, :3], geometry.normal)
     if up[2] < (1 - 1e-6) * norm(up):
         return [], "a plane that is not level is left out"
-    return [], "a plane that is not at height 0 is left out; the ground is there" if abs(
-        pose[2]
-    ) > 1e-3 else ""
+    return [], "a plane that is not at height 0 is left out; the ground is there" if abs(pose[2]) > 1e-3 else ""
 
 
 def _polyline(geometry: SdfGeometry, pose: Pose6) -> Found:
@@ -209,9 +203,7 @@ def _sliced(triangles: Triangles, heights: list[float]) -> Found:
         for outlines, low, high in bands
         for piece in pieces(outlines)
     ]
-    note = (
-        "is a mesh with holes in its surface: where a cut does not close, it is taken as the hull around it"
-    )
+    note = "is a mesh with holes in its surface: where a cut does not close, it is taken as the hull around it"
     return found, note if open_somewhere else ""
 
 
@@ -222,20 +214,14 @@ def _heights(z: Floats) -> list[float]:
         return []
     own = np.unique(np.round(z, 4))
     inner = own[(own > low + 1e-3) & (own < high - 1e-3)]
-    levels = (
-        inner.tolist()
-        if len(inner) <= STEPS
-        else [level for level in LEVELS if low + 1e-3 < level < high - 1e-3]
-    )
+    levels = inner.tolist() if len(inner) <= STEPS else [level for level in LEVELS if low + 1e-3 < level < high - 1e-3]
     return [low, *levels, high]
 
 
 def _thin(outline: Floats) -> Floats | None:
     grain = GRAIN
     thin = thinned(outline, grain)
-    while len(thin) > CORNERS or (
-        len(thin) > 3 and polygons.crossing_sides(thin) is not None and grain < 1.0
-    ):
+    while len(thin) > CORNERS or (len(thin) > 3 and polygons.crossing_sides(thin) is not None and grain < 1.0):
         grain *= 2
         thin = thinned(outline, grain)
     return thin if len(thin) >= 3 and polygons.area(thin) > 1e-8 else None
@@ -247,10 +233,4 @@ def _same(a: list[Floats], b: list[Floats]) -> bool:
     )
 
 
-_MAKERS = {
-    "box": _box,
-    "cylinder": _cylinder,
-    "sphere": _sphere,
-    "plane": _plane,
-    "polyline": _polyline,
-}
+_MAKERS = {"box": _box, "cylinder": _cylinder, "sphere": _sphere, "plane": _plane, "polyline": _polyline}

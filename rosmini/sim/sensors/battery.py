@@ -137,9 +137,7 @@ class Battery:
         Raises `BatteryError` for a value that is negative or not finite.
         """
         if not (0.0 <= power < math.inf and 0.0 <= duration < math.inf):
-            raise BatteryError(
-                f"a battery cannot give {power} W for {duration} s: both must be finite, and 0 or more"
-            )
+            raise BatteryError(f"a battery cannot give {power} W for {duration} s: both must be finite, and 0 or more")
         self._power = power
         steps = math.ceil(duration / STEP)
         for _ in range(steps):

@@ -45,10 +45,7 @@ class BumperModel:
 
 
 TURTLEBOT3_BUMPER = BumperModel(
-    (
-        Sector("forward", -math.pi / 2, math.pi / 2, 1),
-        Sector("backward", math.pi / 2, 3 * math.pi / 2, 2),
-    )
+    (Sector("forward", -math.pi / 2, math.pi / 2, 1), Sector("backward", math.pi / 2, 3 * math.pi / 2, 2))
 )
 """The two switches that TurtleBot3's firmware reads.
 

@@ -101,9 +101,7 @@ class Imu:
         seconds for it, this one no time.
         """
         if self._step:
-            shown = self._offset + self._unit.standard_normal(3) * self._deviations[:3] / math.sqrt(
-                CALIBRATION
-            )
+            shown = self._offset + self._unit.standard_normal(3) * self._deviations[:3] / math.sqrt(CALIBRATION)
             shown[2] += w * self.scale
             zero = np.floor(shown / self._step) * self._step
             self._shift(number, self._zero - zero)
@@ -116,9 +114,7 @@ class Imu:
             rows = np.frombuffer(self._rows).reshape(-1, 7).copy()
             start = max(number + 1 - self._first, 0)
             rows[start:, :3] += more
-            rows[start:, 6] += (
-                more[2] * np.arange(self._first + start - number, self._end - number) / self.model.rate
-            )
+            rows[start:, 6] += more[2] * np.arange(self._first + start - number, self._end - number) / self.model.rate
             self._rows, self._drift = rows.tobytes(), float(rows[-1, 6])
 
     def sample(

@@ -30,9 +30,7 @@ from rosmini.sim.models import LidarModel
 Floats = NDArray[np.float64]
 
 
-def scan(
-    lidar: LidarModel, pose: Pose, segments: Floats, discs: Floats, noise: Floats | None = None
-) -> Floats:
+def scan(lidar: LidarModel, pose: Pose, segments: Floats, discs: Floats, noise: Floats | None = None) -> Floats:
     """Return the ranges (beams,) [m] that the laser of a robot at `pose` measures.
 
     `segments` (n, 4) and `discs` (m, 3) are the objects at the laser's height in the world's frame; `noise` (beams,) is

@@ -207,14 +207,7 @@ def draw(plan: Plan, lens: Lens, inverse: Floats, shown: Ints) -> None:
 
 
 def draw_rods(
-    first: int,
-    rods: Floats,
-    boxes: Ints,
-    position: Floats,
-    rays: Floats,
-    lens: Lens,
-    inverse: Floats,
-    shown: Ints,
+    first: int, rods: Floats, boxes: Ints, position: Floats, rays: Floats, lens: Lens, inverse: Floats, shown: Ints
 ) -> None:
     """Draw upright cylinders (m, 5), the first with the number `first`, in the same way as `draw`.
 
@@ -232,9 +225,7 @@ def draw_rods(
         with np.errstate(divide="ignore", invalid="ignore"):
             depth = (-b - np.sqrt(left)) / a
             height = ez + depth * dz
-            found = np.where(
-                (left >= 0) & (height >= bottom) & (height <= top) & (outside > 0), depth, np.inf
-            )
+            found = np.where((left >= 0) & (height >= bottom) & (height <= top) & (outside > 0), depth, np.inf)
             for level, beyond in ((top, ez > top), (bottom, ez < bottom)):
                 if beyond:
                     flat = (level - ez) / dz
@@ -245,14 +236,7 @@ def draw_rods(
 
 
 def draw_balls(
-    first: int,
-    balls: Floats,
-    boxes: Ints,
-    position: Floats,
-    rays: Floats,
-    lens: Lens,
-    inverse: Floats,
-    shown: Ints,
+    first: int, balls: Floats, boxes: Ints, position: Floats, rays: Floats, lens: Lens, inverse: Floats, shown: Ints
 ) -> None:
     """Draw balls (k, 4) in the same way as `draw_rods`."""
     ex, ey, ez = position.tolist()
@@ -279,9 +263,7 @@ def _window(box: list[int], rays: Floats) -> tuple[tuple[slice, slice] | None, F
     return (slice(top, bottom + 1), slice(left, right + 1)), x, y, z
 
 
-def _put(
-    depth: Floats, number: int, window: tuple[slice, slice], lens: Lens, inverse: Floats, shown: Ints
-) -> None:
+def _put(depth: Floats, number: int, window: tuple[slice, slice], lens: Lens, inverse: Floats, shown: Ints) -> None:
     """Draw an object at `depth` where no nearer one is drawn."""
     hit = (depth >= lens.near) & (depth <= lens.far)
     near = np.where(hit, 1.0 / np.where(hit, depth, 1.0), -1.0)

@@ -93,9 +93,7 @@ def eye_of(camera: CameraModel, pose: Pose, height: float = 0.0, roll: float = 0
     """
     x, y, theta = (float(v) for v in pose)
     if not all(map(math.isfinite, (x, y, theta, height, roll))):
-        raise CameraError(
-            f"a camera cannot look from ({x}, {y}, {theta}), {height} m up: that must be finite"
-        )
+        raise CameraError(f"a camera cannot look from ({x}, {y}, {theta}), {height} m up: that must be finite")
     mx, my, mz = camera.mount
     c, s = math.cos(theta), math.sin(theta)
     position = np.array([x + c * mx - s * my, y + s * mx + c * my, height + mz])
@@ -112,12 +110,7 @@ def axes_of(yaw: float, pitch: float, roll: float = 0.0) -> Floats:
 
 
 def capture(
-    camera: CameraModel | Eye,
-    pose: Pose,
-    view: View,
-    *,
-    noise: Floats | None = None,
-    depth_far: float | None = None,
+    camera: CameraModel | Eye, pose: Pose, view: View, *, noise: Floats | None = None, depth_far: float | None = None
 ) -> tuple[Image, Depths]:
     """Return the image (h, w, 3), red, green, blue, and the depths (h, w) [m] that a camera sees at one moment.
 
@@ -163,13 +156,7 @@ def develop(light: Light, noise: Floats | None = None) -> Image:
     return np.ascontiguousarray(planes.astype(np.uint8).transpose(1, 2, 0))
 
 
-def render(
-    camera: CameraModel | Eye,
-    pose: Pose,
-    view: View,
-    *,
-    noise: Floats | None = None,
-) -> Image:
+def render(camera: CameraModel | Eye, pose: Pose, view: View, *, noise: Floats | None = None) -> Image:
     """Return only the image (h, w, 3); see `capture`."""
     return capture(camera, pose, view, noise=noise)[0]
 

@@ -62,10 +62,7 @@ class Scene:
 
     def __add__(self, other: Scene) -> Scene:
         return Scene(
-            *(
-                np.concatenate([getattr(self, name), getattr(other, name)])
-                for name in self.__dataclass_fields__
-            )
+            *(np.concatenate([getattr(self, name), getattr(other, name)]) for name in self.__dataclass_fields__)
         )
 
     @classmethod
@@ -120,9 +117,7 @@ class Scene:
     @classmethod
     def of_world(cls, world: World) -> Scene:
         """Return a world with its obstacles at their initial poses."""
-        return cls.walls(world.walls, world.wall_height, solid=world.solid) + cls.of(
-            parts_of(world.obstacles)
-        )
+        return cls.walls(world.walls, world.wall_height, solid=world.solid) + cls.of(parts_of(world.obstacles))
 
 
 def parts_of(obstacles: Iterable[Obstacle]) -> list[Part]:

@@ -13,12 +13,4 @@ from .errors import Place, StageError
 from .robots import StageCamera, StageLaser, StageRobot
 from .world_file import StageWorld, load
 
-__all__ = [
-    "Place",
-    "StageCamera",
-    "StageError",
-    "StageLaser",
-    "StageRobot",
-    "StageWorld",
-    "load",
-]
+__all__ = ["Place", "StageCamera", "StageError", "StageLaser", "StageRobot", "StageWorld", "load"]

@@ -70,10 +70,7 @@ def block(points: Floats, bottom: float, top: float) -> tuple[Block | None, str]
     if len(points) < 3:
         return None, f"a block needs 3 points or more, not {len(points)}: it is left out"
     if top <= bottom:
-        return (
-            None,
-            f"the z of a block goes from {bottom:g} up to {top:g}, so nothing meets it: it is left out",
-        )
+        return (None, f"the z of a block goes from {bottom:g} up to {top:g}, so nothing meets it: it is left out")
     crossing = crossing_sides(points)
     odd = ""
     if crossing is not None:
@@ -104,9 +101,7 @@ def picture(path: Path, place: Place, room: int) -> Picture:
         with images.opened(path) as found:
             pixels = found.width * found.height
             if pixels > room:
-                raise images.ImageError(
-                    f"with it the bitmaps of this world have more than {MAX_PIXELS} pixels"
-                )
+                raise images.ImageError(f"with it the bitmaps of this world have more than {MAX_PIXELS} pixels")
             dark = np.empty((found.height, found.width), dtype=bool)
             for top, strip in images.strips(found):
                 below = np.asarray(strip.convert("RGB"))[:, :, 0] <= THRESHOLD
@@ -157,6 +152,4 @@ def frame(size: Size) -> tuple[Block, ...]:
     """Return the boundary of a body of this size: four thin walls within it."""
     x, y, z = size[0] / 2, size[1] / 2, size[2]
     sides = ((-x, -y, x, -y + EDGE), (-x, y - EDGE, x, y), (-x, -y, -x + EDGE, y), (x - EDGE, -y, x, y))
-    return tuple(
-        Block(np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]), 0.0, z) for x0, y0, x1, y1 in sides
-    )
+    return tuple(Block(np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]), 0.0, z) for x0, y0, x1, y1 in sides)

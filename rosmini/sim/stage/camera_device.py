@@ -114,12 +114,9 @@ class StageCameraDevice(CameraDevice):
 def lens(camera: StageCamera) -> Lens:
     """Return the projection of a camera: stageros's values, with the image centre at (width / 2, height / 2)."""
     fx, fy = (
-        size / (2 * math.tan(fov / 2))
-        for size, fov in zip((camera.width, camera.height), camera.fov, strict=True)
+        size / (2 * math.tan(fov / 2)) for size, fov in zip((camera.width, camera.height), camera.fov, strict=True)
     )
-    return Lens(
-        camera.width, camera.height, fx, fy, camera.width / 2, camera.height / 2, camera.near, camera.far
-    )
+    return Lens(camera.width, camera.height, fx, fy, camera.width / 2, camera.height / 2, camera.near, camera.far)
 
 
 def optical(yaw: float, pitch: float) -> tuple[float, float, float, float]:

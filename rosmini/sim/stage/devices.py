@@ -42,9 +42,7 @@ class StageBase(DifferentialDrive):
     command.
     """
 
-    def __init__(
-        self, host: Host, name: str, robot: StageRobot, names: Names, commanded: Callable[[], None]
-    ) -> None:
+    def __init__(self, host: Host, name: str, robot: StageRobot, names: Names, commanded: Callable[[], None]) -> None:
         self.stage_robot = robot
         self.sideways = robot.drive == "omni"
         self.steered = robot.drive == "car"
@@ -119,9 +117,7 @@ class StageTruth(GroundTruth):
     def __init__(self, host: Host, name: str, names: Names) -> None:
         what = "base_pose_ground_truth"
         frame, child = names.frame(what), names.frame("base_footprint")
-        super().__init__(
-            host, name, topic=names.topic(what), frame=frame, child=child, covariance=NO_COVARIANCE
-        )
+        super().__init__(host, name, topic=names.topic(what), frame=frame, child=child, covariance=NO_COVARIANCE)
         self._before: Pose = self.robot.pose
 
     def due(self, stamp: Stamp, number: int, /) -> None:
@@ -148,15 +144,7 @@ class StageLaserDevice(RangeDevice):
     queue_size = 10
 
     def __init__(
-        self,
-        host: Host,
-        robot: str,
-        name: str,
-        laser: StageLaser,
-        model: LidarModel,
-        *,
-        topic: str,
-        frame: str,
+        self, host: Host, robot: str, name: str, laser: StageLaser, model: LidarModel, *, topic: str, frame: str
     ) -> None:
         self._noise = laser.noise
         self._near, self._far = laser.range_min, laser.range_max

@@ -29,8 +29,6 @@ class StageError(WorldError):
 
     def __init__(self, place: Place, what: str, unquoted: str = "") -> None:
         if place.included:
-            what = (
-                unquoted or "this line cannot be used; `rosmini world check` of the file itself may tell why"
-            )
+            what = unquoted or "this line cannot be used; `rosmini world check` of the file itself may tell why"
         super().__init__(f"{place}: {what}")
         self.place = place

@@ -85,13 +85,9 @@ class OneRobot:
                 model = self.model.lidar
             label = f"{name}/base_scan{'' if number is None else f'_{number}'}"
             topic = names.topic("base_scan", number)
-            self.lasers.append(
-                host.add(StageLaserDevice(host, name, label, laser, model, topic=topic, frame=frame))
-            )
+            self.lasers.append(host.add(StageLaserDevice(host, name, label, laser, model, topic=topic, frame=frame)))
             place = (laser.pose[0], laser.pose[1], laser.pose[2])
-            stage.transforms.sensor(
-                names.frame("base_link"), frame, place, quaternion_from_yaw(laser.pose[3])
-            )
+            stage.transforms.sensor(names.frame("base_link"), frame, place, quaternion_from_yaw(laser.pose[3]))
         self.cameras = [self._camera(stage, i) for i in range(len(robot.cameras))]
 
     @property
@@ -109,14 +105,10 @@ class OneRobot:
         number = i if len(robot.cameras) > 1 else None
         rate, canonical = 1 / stage.file.interval, stage.parameters.is_depth_canonical
         camera = stage.host.add(
-            StageCameraDevice(
-                stage.host, self.name, robot.cameras[i], names, number, rate=rate, canonical=canonical
-            )
+            StageCameraDevice(stage.host, self.name, robot.cameras[i], names, number, rate=rate, canonical=canonical)
         )
         place = robot.cameras[i].pose[:3]
-        stage.transforms.sensor(
-            names.frame("base_link"), camera.frame, place, camera.rotation(), camera.wanted
-        )
+        stage.transforms.sensor(names.frame("base_link"), camera.frame, place, camera.rotation(), camera.wanted)
         return camera
 
 
@@ -157,9 +149,7 @@ class Stageros(Simulation):
         self.clock = self.host.add(ClockDevice(self.host, rate=rate))
         if self.file.quit_time:
             self.host.add(End(self.host, rate, self.file.quit_time, self._quit))
-        self._service = node.service(
-            "reset_positions", service_class("std_srvs/Empty"), self._reset_positions
-        )
+        self._service = node.service("reset_positions", service_class("std_srvs/Empty"), self._reset_positions)
         self.host.unpause()  # only now, because a kernel may have been compiled meanwhile
 
     def __repr__(self) -> str:
@@ -245,9 +235,7 @@ def _options(arguments: tuple[str, ...]) -> tuple[str, bool, bool]:
     unknown = [each for each in flags if each not in ("-g", "-u")]
     if unknown or len(files) != 1:
         what = (
-            f"stageros knows no option {unknown[0]}"
-            if unknown
-            else f"stageros needs one world file, not {len(files)}"
+            f"stageros knows no option {unknown[0]}" if unknown else f"stageros needs one world file, not {len(files)}"
         )
         raise ScriptError(f"{what}.\n{USAGE}")
     return os.fspath(files[0]), "-u" in flags, "-g" not in flags

@@ -130,9 +130,7 @@ class _Parser:
             if word.text == "define":
                 self._define(word, words)
             elif following is None:
-                raise StageError(
-                    word.place, f"after {word.text} a value is missing, or what is in parentheses"
-                )
+                raise StageError(word.place, f"after {word.text} a value is missing, or what is in parentheses")
             elif following.kind == "(":
                 body = _between(words, word)
                 entity.children.append(self._make(word.text, word.place, body, using))
@@ -173,9 +171,7 @@ class _Parser:
                 raise StageError(macro.place, msg)
             self._inserted += len(macro.body)
             if self._inserted > MAX_WORDS:
-                raise StageError(
-                    place, f"the definitions insert more than {MAX_WORDS} words, the last of {name}"
-                )
+                raise StageError(place, f"the definitions insert more than {MAX_WORDS} words, the last of {name}")
             entity = self._make(macro.base, place, macro.body, (*using, name))
             entity.title = name
         self._count += 1

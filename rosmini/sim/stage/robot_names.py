@@ -31,9 +31,7 @@ class Names:
 
     def topic(self, name: str, device: int | None = None) -> str:
         """Return a topic; of the sensor with this number, if there are several of its kind."""
-        return (
-            name if device is None and not self.prefix else within(f"/{self.prefix}", _numbered(name, device))
-        )
+        return name if device is None and not self.prefix else within(f"/{self.prefix}", _numbered(name, device))
 
     def frame(self, name: str, device: int | None = None) -> str:
         """Return a frame; of the sensor with this number, if there are several of its kind."""

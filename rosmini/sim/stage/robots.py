@@ -190,9 +190,7 @@ def _on(thing: Thing, base: Thing) -> Pose4:
     c, s = math.cos(a), math.sin(a)
     dx, dy = thing.at[0] - x, thing.at[1] - y
     seen = (c * dx + s * dy, c * dy - s * dx, thing.at[2] - base.at[2], thing.at[3] - a)
-    on_x, on_y, on_z, heading = (
-        round(part, 12) + 0.0 for part in seen
-    )  # rounding removes the errors of the rotations
+    on_x, on_y, on_z, heading = (round(part, 12) + 0.0 for part in seen)  # rounding removes the errors of the rotations
     return (on_x, on_y, on_z, heading)
 
 

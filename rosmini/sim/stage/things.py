@@ -272,9 +272,7 @@ class Maker:
         path = find_file(name, self.parsed.path, place.path)
         if path is None:
             where = searched(self.parsed.path, place.path)
-            raise StageError(
-                place, f'there is no bitmap "{name}" {where}', f"there is no such bitmap {where}"
-            )
+            raise StageError(place, f'there is no bitmap "{name}" {where}', f"there is no such bitmap {where}")
         if path not in self._pictures:
             room = MAX_PIXELS - sum(each.pixels for each in self._pictures.values())
             self._pictures[path] = picture(path, place, room)

@@ -103,9 +103,7 @@ def _included(path: Path, root: Path, above: tuple[Path, ...], so_far: _Included
         if above:
             so_far.size += files.check(path).st_size
         if so_far.size > MAX_BYTES:
-            raise StageError(
-                Place(path, 1), f"the files that the world includes have more than {MAX_BYTES} bytes"
-            )
+            raise StageError(Place(path, 1), f"the files that the world includes have more than {MAX_BYTES} bytes")
         text = files.read(path).decode("utf-8", errors="replace").replace("\r\n", "\n").replace("\r", "\n")
     except OSError as error:
         where = Place(path, 1)

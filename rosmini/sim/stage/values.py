@@ -93,18 +93,14 @@ class Reader:
             return default
         return value
 
-    def number(
-        self, name: str, default: float, *, minimum: float | None = None, above: float | None = None
-    ) -> float:
+    def number(self, name: str, default: float, *, minimum: float | None = None, above: float | None = None) -> float:
         """Return a number, at least the `minimum`. Raises `StageError` if it is not more than `above`."""
         found = self.find(name)
         if found is None:
             return default
         value = self._number(found, self._first(found))
         if minimum is not None and value < minimum:
-            self.units.note(
-                found.place, f"{name} is {value:g}; {minimum:g} is used, the least that is possible"
-            )
+            self.units.note(found.place, f"{name} is {value:g}; {minimum:g} is used, the least that is possible")
             return minimum
         if above is not None and value <= above:
             raise StageError(found.place, f"{name} is {value:g}; it must be more than {above:g}")
@@ -145,9 +141,7 @@ class Reader:
             what = f"{name} has {len(values)} of its {len(kinds)} numbers; the others are taken as they are by default"
             self.units.note(found.place, what)
         elif len(found.values) > len(kinds):
-            self.units.note(
-                found.place, f"{name} has {len(found.values)} numbers; only the first {len(kinds)} count"
-            )
+            self.units.note(found.place, f"{name} has {len(found.values)} numbers; only the first {len(kinds)} count")
         return (*values, *default[len(values) :])
 
     def _first(self, found: Property) -> Value:
@@ -155,9 +149,7 @@ class Reader:
         if not found.values:
             raise StageError(found.place, f"{found.name} needs a value, and there is none in its brackets")
         if len(found.values) > 1:
-            self.units.note(
-                found.place, f"{found.name} has {len(found.values)} values; only the first counts"
-            )
+            self.units.note(found.place, f"{found.name} has {len(found.values)} values; only the first counts")
         return found.values[0]
 
     def _number(self, found: Property, value: Value) -> float:

@@ -40,15 +40,7 @@ DEFAULT_INTERVAL = 0.1
 MAX_ROBOTS = 1000
 
 WORLD = ("name", "resolution", "interval_sim", "speedup", "paused", "quit_time", "unit_length", "unit_angle")
-IGNORED = (
-    "interval_real",
-    "show_clock",
-    "show_clock_interval",
-    "threads",
-    "gui_disable",
-    "gui_interval",
-    "test",
-)
+IGNORED = ("interval_real", "show_clock", "show_clock_interval", "threads", "gui_disable", "gui_interval", "test")
 KNOWN = {
     "model": (),
     "position": (*BASE, "drive", "localization", "localization_origin", "odom_error", "velocity_bounds"),
@@ -238,9 +230,7 @@ class _World:
         """Return the blocks of a model's body without hollow parts; add a note if there are any."""
         found, holes = filled(thing)
         if holes:
-            what = (
-                f"of the bitmaps of a world one may have rooms in it; {holes} hollow parts of {{}} are filled"
-            )
+            what = f"of the bitmaps of a world one may have rooms in it; {holes} hollow parts of {{}} are filled"
             self.units.note(thing.reader.place("bitmap"), what, thing.name)
         return found
 

@@ -31,9 +31,7 @@ class Square:
         self.goal: Pose | None = None
         self.turning = self.stopping = False
 
-    def decide(
-        self, pose: Pose, linear: float, angular: float
-    ) -> tuple[tuple[float, float] | None, list[str]]:
+    def decide(self, pose: Pose, linear: float, angular: float) -> tuple[tuple[float, float] | None, list[str]]:
         """Return the command at a pose with these speeds, or None for no command, and the lines to log."""
         log: list[str] = []
         if self.goal is None:

@@ -45,9 +45,7 @@ class Frame:
         Raises `TurtleError` if the name is taken, if a number is not finite, and if there are too many turtles.
         """
         if name in self.turtles:
-            raise TurtleError(
-                f"there is a turtle {name} already: give another name, or none to get a new one"
-            )
+            raise TurtleError(f"there is a turtle {name} already: give another name, or none to get a new one")
         if len(self.turtles) >= MAX_TURTLES:
             raise TurtleError(f"there are {MAX_TURTLES} turtles, and no window has more: kill one, or reset")
         turtle = Turtle(name, x, y, theta, kind=self._choose())

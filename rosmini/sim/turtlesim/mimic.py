@@ -22,9 +22,7 @@ class Mimic:
     def __init__(self, node: Node) -> None:
         self._twist = message_class("geometry_msgs/Twist")()
         self._commands = node.publisher(f"{node.resolve('output')}/cmd_vel", type(self._twist), queue_size=1)
-        node.subscriber(
-            f"{node.resolve('input')}/pose", message_class("turtlesim/Pose"), self._heard, queue_size=1
-        )
+        node.subscriber(f"{node.resolve('input')}/pose", message_class("turtlesim/Pose"), self._heard, queue_size=1)
 
     def _heard(self, pose: Any) -> None:
         self._twist.linear.x, self._twist.angular.z = pose.linear_velocity, pose.angular_velocity

@@ -162,9 +162,7 @@ class TurtleSim:
         try:
             return self.spawn(request.x, request.y, request.theta, request.name)
         except (TurtleError, IllegalName) as error:
-            if (
-                request.name in self.frame.turtles
-            ):  # as in ROS: no error text for the caller, and this in the log
+            if request.name in self.frame.turtles:  # as in ROS: no error text for the caller, and this in the log
                 self.node.logerr(f"A turtled named [{request.name}] already exists")
                 raise ServiceRefused from error
             raise self._refused(error) from error

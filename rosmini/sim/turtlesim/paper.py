@@ -149,9 +149,7 @@ def _paint(image: NDArray[np.uint8], stroke: Stroke) -> None:
     image[top:bottom, left:right][inside] = pen.colour
 
 
-def _paint_thin(
-    image: NDArray[np.uint8], start: tuple[float, float], end: tuple[float, float], colour: Colour
-) -> None:
+def _paint_thin(image: NDArray[np.uint8], start: tuple[float, float], end: tuple[float, float], colour: Colour) -> None:
     """Paint a line of one pixel: one pixel for each column, or for each row if it is steep."""
     # Qt rounds to a 64th of a pixel
     start, end = ((math.trunc(x * 64) / 64, math.trunc(y * 64) / 64) for x, y in (start, end))

@@ -115,9 +115,7 @@ class ShapeServer:
             return
         self.polygon = None
         self.node.loginfo(f"{self.node.name}: Succeeded")
-        self.server.set_succeeded(
-            self._result(interior_angle=polygon.interior_angle, apothem=polygon.apothem)
-        )
+        self.server.set_succeeded(self._result(interior_angle=polygon.interior_angle, apothem=polygon.apothem))
 
 
 class ShapeClient:

@@ -146,7 +146,5 @@ class Tape:
         Raises `TurtleError` if there was no turtle.
         """
         if not self.tracks:
-            raise TurtleError(
-                f"there was no turtle in {self.name} while the tape ran: nothing is to be played"
-            )
+            raise TurtleError(f"there was no turtle in {self.name} while the tape ran: nothing is to be played")
         return show("turtle_replay", self, **options)

@@ -40,7 +40,5 @@ def window(name: str | None = None, graph: Graph | None = None) -> TurtleSim:
         raise TurtleError(f"there are {len(found)} windows: say which one is meant, of {', '.join(found)}")
     full = resolve(name, "/")
     if full not in found:
-        raise TurtleError(
-            f"no turtlesim is called {full}: {nearest(full, found) or 'there is ' + ', '.join(found)}"
-        )
+        raise TurtleError(f"no turtlesim is called {full}: {nearest(full, found) or 'there is ' + ', '.join(found)}")
     return found[full]

@@ -79,9 +79,7 @@ def mimic_problem(joint: Joint, joints: Mapping[str, Joint]) -> str:
         followed = at.mimic.joint
         if followed not in joints:
             hint = nearest(followed, joints)
-            return (
-                f"the joint {at.name!r} mimics {followed!r}, which is no joint{f'; {hint}' if hint else ''}"
-            )
+            return f"the joint {at.name!r} mimics {followed!r}, which is no joint{f'; {hint}' if hint else ''}"
         if followed in way:
             return f"joints mimic one another in a circle: {' -> '.join([*way, followed])}"
         at = joints[followed]

@@ -51,21 +51,7 @@ MAX_DEPTH = 40
 MAX_BYTES = 4_000_000
 """Maximum size of a YAML file [bytes]."""
 
-GLOBALS = (
-    "list",
-    "dict",
-    "map",
-    "len",
-    "str",
-    "float",
-    "int",
-    "bool",
-    "min",
-    "max",
-    "round",
-    "sorted",
-    "range",
-)
+GLOBALS = ("list", "dict", "map", "len", "str", "float", "int", "bool", "min", "max", "round", "sorted", "range")
 """Python's functions that do not need the prefix ``python.``."""
 
 MACRO_ARGUMENT = re.compile(
@@ -119,9 +105,7 @@ class Confined:
         if len(above) > MAX_DEPTH:
             way = above[above.index(above[-1]) :]
             circle = way[: way.index(way[0], 1) + 1] if way[0] in way[1:] else way
-            raise UrdfError(
-                f"macros call or include one another without end: {' -> '.join(circle)}", filename
-            )
+            raise UrdfError(f"macros call or include one another without end: {' -> '.join(circle)}", filename)
 
     # ---- expressions ----
 
@@ -191,9 +175,7 @@ class Confined:
     def _load_yaml(self, name: str) -> Any:
         """Return the values of a YAML file in a package, or beside the description."""
         path = Path(self._xacro.abs_filename_spec(name)).resolve()
-        if self._folder not in path.parents and not any(
-            (each / "package.xml").is_file() for each in path.parents
-        ):
+        if self._folder not in path.parents and not any((each / "package.xml").is_file() for each in path.parents):
             raise NotAllowed(f"{path} is neither in a package nor beside the description")
         self._budget.spend(OF_A_FILE)
         try:

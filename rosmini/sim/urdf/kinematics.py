@@ -29,9 +29,7 @@ def turn(axis: Sequence[float], angle: float) -> Floats:
     """Return the rotation (3, 3) by `angle` [rad] about an axis of length 1 (Rodrigues' formula)."""
     x, y, z = axis
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    result: Floats = (
-        np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * matrix_product(cross, cross)
-    )
+    result: Floats = np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * matrix_product(cross, cross)
     return result
 
 

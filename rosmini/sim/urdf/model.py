@@ -105,11 +105,7 @@ class Inertial:
     def matrix(self) -> Floats:
         """The tensor of inertia (3, 3)."""
         return np.array(
-            [
-                [self.ixx, self.ixy, self.ixz],
-                [self.ixy, self.iyy, self.iyz],
-                [self.ixz, self.iyz, self.izz],
-            ]
+            [[self.ixx, self.ixy, self.ixz], [self.ixy, self.iyy, self.iyz], [self.ixz, self.iyz, self.izz]]
         )
 
 

@@ -183,10 +183,7 @@ class _Reader:
     def link(self, element: Element) -> Link:
         inertials = element.all("inertial")
         if len(inertials) > 1:
-            self.note(
-                inertials[1],
-                f"the link {element.get('name')!r} has more than one <inertial>: the first counts",
-            )
+            self.note(inertials[1], f"the link {element.get('name')!r} has more than one <inertial>: the first counts")
         weight = self.spare(inertials[0], "an inertial", self.inertial) if inertials else None
         visuals = [self.spare(each, "a visual", self.visual) for each in element.all("visual")]
         collisions = [self.spare(each, "a collision", self.collision) for each in element.all("collision")]
@@ -301,9 +298,7 @@ class _Reader:
         if colour is not None:
             r, g, b, a = colour.numbers("rgba", 4)
             if not all(0 <= part <= 1 for part in (r, g, b, a)):
-                self.note(
-                    colour, f"the parts of a colour are from 0 to 1, not {colour.get('rgba')!r}: they are cut"
-                )
+                self.note(colour, f"the parts of a colour are from 0 to 1, not {colour.get('rgba')!r}: they are cut")
             r, g, b, a = (min(max(part, 0.0), 1.0) for part in (r, g, b, a))
             rgba = (r, g, b, a)
         made = Material(name, rgba, "" if texture is None else texture.attribute("filename"))

@@ -92,9 +92,7 @@ def _written(value: Any) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def _process(
-    file: Path, mappings: dict[str, str], index: PackageIndex, *, confined: bool
-) -> xml.dom.minidom.Document:
+def _process(file: Path, mappings: dict[str, str], index: PackageIndex, *, confined: bool) -> xml.dom.minidom.Document:
     """Return xacro's expansion of a file, with our search for packages and our checks of XML."""
     import xacro
     from xacro import substitution_args

@@ -30,9 +30,7 @@ class SmootherLimits(Parameters):
     speed_lim_v: float = parameter(1.0, "the highest speed", unit="m/s", minimum=0.0, maximum=10.0)
     speed_lim_w: float = parameter(5.0, "the fastest turn", unit="rad/s", minimum=0.0, maximum=10.0)
     accel_lim_v: float = parameter(0.5, "the strongest acceleration", unit="m/s2", minimum=0.0, maximum=10.0)
-    accel_lim_w: float = parameter(
-        2.5, "how fast a turn may become faster", unit="rad/s2", minimum=0.0, maximum=10.0
-    )
+    accel_lim_w: float = parameter(2.5, "how fast a turn may become faster", unit="rad/s2", minimum=0.0, maximum=10.0)
     decel_factor: float = parameter(
         1.0, "by this factor it brakes harder than it accelerates", minimum=0.0, maximum=10.0
     )
@@ -44,8 +42,7 @@ class SmootherParameters(SmootherLimits):
 
     frequency: float = parameter(20.0, "how often it publishes", unit="Hz", minimum=0.1, maximum=1000.0)
     robot_feedback: int = parameter(
-        0,
-        "where the robot's speeds are from: 0 nowhere, 1 its odometry, 2 the commands it gets in the end",
+        0, "where the robot's speeds are from: 0 nowhere, 1 its odometry, 2 the commands it gets in the end"
     )
     quiet: bool = parameter(False, "do not warn of a command that was no number")
 

@@ -58,15 +58,10 @@ class Limits:
 def limited(velocity: Velocity, limits: Limits) -> Velocity:
     """Limit each part of a velocity."""
     v, w = velocity
-    return (
-        max(-limits.speed_v, min(limits.speed_v, v)),
-        max(-limits.speed_w, min(limits.speed_w, w)),
-    )
+    return (max(-limits.speed_v, min(limits.speed_v, v)), max(-limits.speed_w, min(limits.speed_w, w)))
 
 
-def towards(
-    last: Velocity, target: Velocity, limits: Limits, dt: float, actual: Velocity | None = None
-) -> Velocity:
+def towards(last: Velocity, target: Velocity, limits: Limits, dt: float, actual: Velocity | None = None) -> Velocity:
     """Return the velocity `dt` seconds after `last` on the way to `target`.
 
     With `actual`, the robot's velocity by its odometry, a robot that still moves in the opposite direction is braked.
@@ -97,9 +92,7 @@ class VelocitySmoother:
 
     def __init__(self, limits: Limits | None = None, *, period: float = 0.05, feedback: str = "none") -> None:
         if not 0 < period < math.inf:
-            raise RosminiError(
-                f"the time between two outputs must be a positive number of seconds, not {period}"
-            )
+            raise RosminiError(f"the time between two outputs must be a positive number of seconds, not {period}")
         if feedback not in FEEDBACK:
             raise RosminiError(f"there is no feedback {feedback!r}; it is one of {', '.join(FEEDBACK)}")
         self.limits = limits or Limits()
@@ -140,8 +133,7 @@ class VelocitySmoother:
             self.target = (0.0, 0.0)
         if self.feedback != "none" and self.active and typical > 0:
             off = any(
-                abs(real - told) > most
-                for real, told, most in zip(self.measured, self.output, TRUST, strict=True)
+                abs(real - told) > most for real, told, most in zip(self.measured, self.output, TRUST, strict=True)
             )
             if off:
                 self.output = self.measured

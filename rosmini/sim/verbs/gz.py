@@ -42,9 +42,7 @@ TOOL = Tool(
     is_magic=False,
     group="Run and look",
     purpose="looking at a Gazebo server and changing its world",
-    overview=Overview(
-        closing="Type {tool} <command> -h for more detailed usage", status=0, unknown_status=255
-    ),
+    overview=Overview(closing="Type {tool} <command> -h for more detailed usage", status=0, unknown_status=255),
 )
 Gz = TOOL.on
 
@@ -81,9 +79,7 @@ class _Services:
 
     def call(self, service: str, kind: str, **fields: Any) -> Any:
         """Return the response. Raises `GazeboError` if the server refuses."""
-        answer = self.node.service_client(f"{self.name}/{service}", service_class(kind), numpy=False)(
-            **fields
-        )
+        answer = self.node.service_client(f"{self.name}/{service}", service_class(kind), numpy=False)(**fields)
         if not getattr(answer, "success", True):
             raise GazeboError(answer.status_message)
         return answer
@@ -103,15 +99,11 @@ def _services(call: Call) -> Iterator[_Services]:
         yield _Services(node, name)
 
 
-def _parser(
-    verb: str, description: str, fill: Callable[[ArgumentParser], object]
-) -> Callable[[], ArgumentParser]:
+def _parser(verb: str, description: str, fill: Callable[[ArgumentParser], object]) -> Callable[[], ArgumentParser]:
     """Return a function that makes the parser of a verb."""
 
     def make() -> ArgumentParser:
-        parser = ArgumentParser(
-            f"gz {verb}", description, epilog=f"for example: rosmini gz {verb} {EXAMPLES[verb]}"
-        )
+        parser = ArgumentParser(f"gz {verb}", description, epilog=f"for example: rosmini gz {verb} {EXAMPLES[verb]}")
         if verb != "sdf":
             parser.add_argument("-w", "--world-name", metavar="WORLD", help="which world; there is one")
         fill(parser)
@@ -171,9 +163,7 @@ def topic(given: Namespace, call: Call) -> Result:
         return Lines(lines=tuple(master.topics()))
     if given.info:
         found = master.info(master.resolve(given.info))
-        return TopicInfo(
-            type=found.type, publishers=found.publisher_addresses, subscribers=found.subscriber_addresses
-        )
+        return TopicInfo(type=found.type, publishers=found.publisher_addresses, subscribers=found.subscriber_addresses)
     if not given.hz:
         raise _say_what(_TOPIC)
     name = master.info(master.resolve(given.hz)).topic
@@ -227,9 +217,7 @@ class ModelPose(Result):
 def model(given: Namespace, call: Call) -> Result:
     """Show, move, spawn or delete a model."""
     parts = (given.x, given.y, given.z, given.R, given.P, given.Y)
-    x, y, z, roll, pitch, yaw = (
-        part or 0.0 for part in parts
-    )  # parts that are not given are 0, as in Gazebo
+    x, y, z, roll, pitch, yaw = (part or 0.0 for part in parts)  # parts that are not given are 0, as in Gazebo
     pose, name = pose_message((x, y, z, roll, pitch, yaw)), given.model_name or ""
     if given.spawn_file:
         text = _read(Path(given.spawn_file))
@@ -330,9 +318,7 @@ class Statistics(Result):
             first, last = self.samples[max(0, count - LOOK_BACK)], self.samples[count - 1]
             factor = max(0.0, (last.sim - first.sim) / (last.real - first.real))
             flag = "T" if last.paused else "F"
-            lines.append(
-                f"Factor[{factor:4.2f}] SimTime[{last.sim:4.2f}] RealTime[{last.real:4.2f}] Paused[{flag}]"
-            )
+            lines.append(f"Factor[{factor:4.2f}] SimTime[{last.sim:4.2f}] RealTime[{last.real:4.2f}] Paused[{flag}]")
         return "\n".join(lines)
 
 

@@ -18,9 +18,7 @@ if TYPE_CHECKING:
     from rosmini.sim.sdf.document import Note
     from rosmini.sim.world import World
 
-TOOL = Tool(
-    "world", "list worlds, and check files of worlds, maps and robots", is_magic=False, group="Run and look"
-)
+TOOL = Tool("world", "list worlds, and check files of worlds, maps and robots", is_magic=False, group="Run and look")
 
 LONG = 1e6
 """Lengths above this [m] are printed without decimals."""
@@ -84,9 +82,7 @@ def _check_parser() -> ArgumentParser:
         "read from its contents. The exit status is 1 if something is wrong with one of them; notes are no errors.",
         epilog="for example: rosmini world check my.world map.yaml robot.urdf",
     )
-    parser.add_argument(
-        "files", nargs="+", metavar="FILE", help="a file, or the name of a world that rosmini brings"
-    )
+    parser.add_argument("files", nargs="+", metavar="FILE", help="a file, or the name of a world that rosmini brings")
     parser.add_argument(
         "--unconfined",
         action="store_true",
@@ -95,9 +91,7 @@ def _check_parser() -> ArgumentParser:
     return parser
 
 
-@TOOL.verb(
-    "check files, and say what is wrong with them, where, and what would be left out", parser=_check_parser
-)
+@TOOL.verb("check files, and say what is wrong with them, where, and what would be left out", parser=_check_parser)
 def check(given: argparse.Namespace, _call: Call) -> Checked:
     """Check files."""
     sound: list[FileCheck] = []
@@ -155,9 +149,7 @@ def _sdf(path: Path) -> FileCheck:
         notes += _occupied(made, f"{each.path}:{each.line}")
     for model in document.models:
         solid = to_obstacles(model)
-        said.append(
-            f"the model {model.name!r}: {_count(len(model.links), 'link')}, {_count(len(solid), 'obstacle')}"
-        )
+        said.append(f"the model {model.name!r}: {_count(len(model.links), 'link')}, {_count(len(solid), 'obstacle')}")
     said += [f"the actor {actor.name!r}" for actor in document.actors]
     what = f"SDF {document.version}: {'; '.join(said) or 'nothing in it'}"
     return FileCheck(str(path), what, tuple(notes), left_out)
@@ -209,12 +201,7 @@ def _measures(world: World) -> str:
     moves = [f"{moving} of them moving"] if moving else []
     things = [_count(len(world.obstacles), "obstacle"), *moves]
     return ", ".join(
-        [
-            *walls,
-            *things,
-            _count(len(world.starts), "start"),
-            f"{_metres(x1 - x0)} m by {_metres(y1 - y0)} m",
-        ]
+        [*walls, *things, _count(len(world.starts), "start"), f"{_metres(x1 - x0)} m by {_metres(y1 - y0)} m"]
     )
 
 

@@ -37,10 +37,7 @@ _MAKERS: Mapping[str, Callable[[], World]] = MappingProxyType(
 _FILES: Mapping[str, tuple[str, str]] = MappingProxyType(
     {
         "floor": ("rosmini_sim/maps/floor.yaml", "A floor of five rooms and a corridor, 12 m by 8 m"),
-        "house": (
-            "turtlebot3_gazebo/worlds/turtlebot3_house.world",
-            "A house of seven rooms and a hall, 16 m by 10 m",
-        ),
+        "house": ("turtlebot3_gazebo/worlds/turtlebot3_house.world", "A house of seven rooms and a hall, 16 m by 10 m"),
         "maze": ("rosmini_sim/worlds/maze.world", "A maze of 10 by 8 cells"),
         "office": ("rosmini_sim/worlds/office.world", "An office floor, 20 m by 12 m, with people and doors"),
         "pillars": ("turtlebot3_gazebo/worlds/turtlebot3_world.world", "Nine pillars in a hexagonal fence"),
@@ -82,9 +79,7 @@ def world(name: str | os.PathLike[str]) -> World:
     `MapError` for an invalid file; `UnknownPackage` or `RosminiError` for an address that does not exist.
     """
     if not isinstance(name, (str, os.PathLike)):
-        raise WorldError(
-            f"a world has a name ({', '.join(names())}) or is the path of a file; {name!r} is neither"
-        )
+        raise WorldError(f"a world has a name ({', '.join(names())}) or is the path of a file; {name!r} is neither")
     text = os.fspath(name)
     if text in _MAKERS:
         return _MAKERS[text]()

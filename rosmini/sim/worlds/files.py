@@ -49,8 +49,7 @@ def kind_of(path: str | os.PathLike[str]) -> Kind:
     head = start.decode("utf-16" if wide else "utf-8", "replace").lstrip("\ufeff").lstrip()
     if head.startswith("<"):
         first = re.search(
-            r"<([A-Za-z_][\w:.-]*)",
-            re.sub(r"<!--.*?(-->|$)|<[?].*?[?]>|<!DOCTYPE[^>]*>", "", head, flags=re.DOTALL),
+            r"<([A-Za-z_][\w:.-]*)", re.sub(r"<!--.*?(-->|$)|<[?].*?[?]>|<!DOCTYPE[^>]*>", "", head, flags=re.DOTALL)
         )
         tag = first[1] if first else ""
         return "sdf" if tag in ("sdf", "gazebo") else "urdf" if tag == "robot" else "xml"
@@ -89,9 +88,7 @@ def world_from_sdf(path: str | os.PathLike[str], *, name: str = "", title: str =
     return made
 
 
-def sdf_world(
-    path: str | os.PathLike[str], *, name: str = "", title: str = ""
-) -> tuple[World, tuple[Note, ...]]:
+def sdf_world(path: str | os.PathLike[str], *, name: str = "", title: str = "") -> tuple[World, tuple[Note, ...]]:
     """Return the first world in an SDF file, and notes about what was left out. Raises `SdfError`.
 
     A world with the common name `default` gets the name of its file.

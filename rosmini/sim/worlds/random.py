@@ -74,9 +74,7 @@ def random_world(
 
 def _check(size: tuple[float, float], **counts: int) -> None:
     if len(size) != 2 or not all(is_finite(side) and NARROWEST <= side <= MAX_COUNT for side in size):
-        raise WorldError(
-            f"size is {shown(size)}; it must be a length and a width of {NARROWEST:g} m to {MAX_COUNT} m"
-        )
+        raise WorldError(f"size is {shown(size)}; it must be a length and a width of {NARROWEST:g} m to {MAX_COUNT} m")
     for name, value in counts.items():
         least = 1 if name in ("rooms", "starts") else 0
         if not isinstance(value, (int, np.integer)) or isinstance(value, bool) or value < least:
@@ -146,9 +144,7 @@ class _Plan:
                     continue
                 door = round(float(self.rng.uniform(begin + 0.3, end - 0.3 - DOOR)), 3)
                 self._add_wall(at, begin, end, door, upright=upright)
-                return (
-                    [(x0, y0, at, y1), (at, y0, x1, y1)] if upright else [(x0, y0, x1, at), (x0, at, x1, y1)]
-                )
+                return [(x0, y0, at, y1), (at, y0, x1, y1)] if upright else [(x0, y0, x1, at), (x0, at, x1, y1)]
         return []
 
     def _meets_door(self, at: float, begin: float, end: float, *, upright: bool) -> bool:
@@ -237,9 +233,7 @@ class _Plan:
                 speed = round(float(self.rng.uniform(0.3, 0.8)), 2)
                 motion = Walk((begin, end), speed=speed, wait=1.0)
                 body = Cylinder(0.2)
-                self.things.append(
-                    Obstacle(f"walker {number + 1}", body, (*begin, 0.0), 1.75, "purple", motion=motion)
-                )
+                self.things.append(Obstacle(f"walker {number + 1}", body, (*begin, 0.0), 1.75, "purple", motion=motion))
                 return
 
     def free_places(self, count: int) -> list[Pose]:
@@ -267,7 +261,5 @@ def _apart(way: Floats, sides: Floats) -> float:
 
 def _side(a: Floats, b: Floats, c: Floats) -> Floats:
     """Return the side of the line from a to b on which c is, as a sign."""
-    area: Floats = (b[..., 0] - a[..., 0]) * (c[..., 1] - a[..., 1]) - (b[..., 1] - a[..., 1]) * (
-        c[..., 0] - a[..., 0]
-    )
+    area: Floats = (b[..., 0] - a[..., 0]) * (c[..., 1] - a[..., 1]) - (b[..., 1] - a[..., 1]) * (c[..., 0] - a[..., 0])
     return area

@@ -58,17 +58,12 @@ def room() -> World:
     things = (
         Obstacle("partition", Box(WALL_THICKNESS, 1.55), (2.44, 1.325, 0.0), WALL_HEIGHT, "wall"),
         Obstacle("sofa", Polygon(sofa), (-0.7, 1.67, 0.0), 0.22, "blue"),
-        *(
-            Obstacle(f"table leg {i}", Cylinder(0.03), (x, y, 0.0), 0.35, "orange")
-            for i, (x, y) in enumerate(legs, 1)
-        ),
+        *(Obstacle(f"table leg {i}", Cylinder(0.03), (x, y, 0.0), 0.35, "orange") for i, (x, y) in enumerate(legs, 1)),
         Obstacle("south pillar", Cylinder(0.11), (1.70, 0.72, 0.0), 0.45, "green"),
         Obstacle("north pillar", Cylinder(0.11), (1.70, 1.72, 0.0), 0.45, "green"),
         Obstacle("chest", Box(0.48, 0.26), (1.30, 2.52, -0.35), 0.25, "purple"),
         Obstacle("planter", Polygon(hexagon), (1.75, -0.40, 0.0), 0.25, "green"),
-        Obstacle(
-            "corner shelf", Polygon(((-0.45, 0.0), (0.0, 0.0), (0.0, 0.45))), (3.3, -0.6, 0.0), 0.3, "sky"
-        ),
+        Obstacle("corner shelf", Polygon(((-0.45, 0.0), (0.0, 0.0), (0.0, 0.45))), (3.3, -0.6, 0.0), 0.3, "sky"),
         Obstacle("crate", Box(0.2, 0.2), (1.22, 1.38, 0.3), 0.2, "vermilion", mass=0.3),
     )
     return World(

@@ -39,9 +39,7 @@ def to_map(world: World, resolution: float = 0.05, *, height: float = 0.15) -> G
         raise WorldError(
             f"a map of {world.name!r} with cells of {resolution:g} m has {columns} x {rows} cells, which is too many"
         )
-    grid = _Grid(
-        np.zeros((rows, columns), dtype=bool), resolution, (float(left) * resolution, float(low) * resolution)
-    )
+    grid = _Grid(np.zeros((rows, columns), dtype=bool), resolution, (float(left) * resolution, float(low) * resolution))
     for obstacle in world.obstacles:
         if obstacle.fixed and obstacle.bottom <= height <= obstacle.height:
             for shape, pose in obstacle.parts():
@@ -66,9 +64,7 @@ class _Grid:
     def _window(self, low: Floats, high: Floats) -> tuple[slice, slice, Floats]:
         """Return the cells that a rectangle may touch, and their centres (n, 2)."""
         first = np.maximum(np.floor((low - self.corner) / self.resolution).astype(int) - 1, 0)
-        last = np.minimum(
-            np.ceil((high - self.corner) / self.resolution).astype(int) + 1, self.taken.shape[::-1]
-        )
+        last = np.minimum(np.ceil((high - self.corner) / self.resolution).astype(int) + 1, self.taken.shape[::-1])
         x = self.corner[0] + (np.arange(first[0], last[0]) + 0.5) * self.resolution
         y = self.corner[1] + (np.arange(first[1], last[1]) + 0.5) * self.resolution
         centres = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
@@ -104,9 +100,7 @@ class _Grid:
             rows, columns, cells = self._window(ends.min(axis=0), ends.max(axis=0))
             self._take(rows, columns, within(cells, half, wall[None]))
         if solid and len(walls):
-            rows, columns, cells = self._window(
-                walls.reshape(-1, 2).min(axis=0), walls.reshape(-1, 2).max(axis=0)
-            )
+            rows, columns, cells = self._window(walls.reshape(-1, 2).min(axis=0), walls.reshape(-1, 2).max(axis=0))
             hit = np.concatenate(
                 [polygons.inside(part, walls) for part in np.array_split(cells, len(cells) // 1000 + 1)]
             )

@@ -23,11 +23,7 @@ PAGE_WIDTH = 680.0
 
 
 def layered(
-    vertices: Iterable[Vertex],
-    edges: Iterable[Edge],
-    *,
-    direction: Direction = "right",
-    first: str | None = None,
+    vertices: Iterable[Vertex], edges: Iterable[Edge], *, direction: Direction = "right", first: str | None = None
 ) -> Layout:
     """Lay out a directed graph in layers that follow its edges to the right or down.
 
@@ -57,9 +53,7 @@ def _check(vertices: Sequence[Vertex], edges: Sequence[Edge]) -> None:
         raise ValueError("the names of vertices and of edges must be unique")
     for edge in edges:
         if edge.source not in names or edge.target not in names:
-            raise ValueError(
-                f"edge {edge.name!r} leads from {edge.source!r} to {edge.target!r}: no such vertex"
-            )
+            raise ValueError(f"edge {edge.name!r} leads from {edge.source!r} to {edge.target!r}: no such vertex")
 
 
 def _components(vertices: Sequence[Vertex], edges: Sequence[Edge]) -> list[tuple[list[Vertex], list[Edge]]]:
@@ -79,9 +73,7 @@ def _components(vertices: Sequence[Vertex], edges: Sequence[Edge]) -> list[tuple
     return [parts[root] for root in sorted(parts, key=lambda root: (-len(parts[root][0]), root))]
 
 
-def _component(
-    vertices: Sequence[Vertex], edges: Sequence[Edge], direction: Direction, first: str | None
-) -> Layout:
+def _component(vertices: Sequence[Vertex], edges: Sequence[Edge], direction: Direction, first: str | None) -> Layout:
     # The name of a group is written along its upper border, whatever the direction of the layers. In a downward
     # layout, arrowheads end below that name and need extra room.
     along, across = (GROUP_PAD, GROUP_HEAD) if direction == "right" else (GROUP_HEAD + ARROW_ROOM, GROUP_PAD)

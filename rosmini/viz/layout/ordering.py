@@ -148,11 +148,7 @@ def _pass(links: _Links, order: Order, *, downward: bool, ranking: dict[Groups, 
 
 
 def _arrange(
-    row: Sequence[int],
-    wish: dict[int, float],
-    groups: Sequence[Groups],
-    depth: int,
-    ranking: dict[Groups, float],
+    row: Sequence[int], wish: dict[int, float], groups: Sequence[Groups], depth: int, ranking: dict[Groups, float]
 ) -> list[int]:
     """Sort by wish, treating a group as one item; if groups have a ranking, it decides their order."""
     if not any(len(groups[slot]) > depth for slot in row):
@@ -161,9 +157,7 @@ def _arrange(
     for slot in row:
         key: object = groups[slot][: depth + 1] if len(groups[slot]) > depth else slot
         bundles.setdefault(key, []).append(slot)
-    entries = sorted(
-        bundles.items(), key=lambda entry: sum([wish[slot] for slot in entry[1]]) / len(entry[1])
-    )
+    entries = sorted(bundles.items(), key=lambda entry: sum([wish[slot] for slot in entry[1]]) / len(entry[1]))
     if ranking:
         grouped = [i for i, (key, _) in enumerate(entries) if isinstance(key, tuple)]
         ranked = sorted(

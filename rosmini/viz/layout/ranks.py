@@ -180,9 +180,7 @@ def _longest_path(count: int, arcs: Sequence[Arc], lengths: Sequence[int]) -> li
         incoming[head].append((tail, length))
     rank = [0] * count
     try:
-        for vertex in TopologicalSorter(
-            {v: [tail for tail, _ in of] for v, of in incoming.items()}
-        ).static_order():
+        for vertex in TopologicalSorter({v: [tail for tail, _ in of] for v, of in incoming.items()}).static_order():
             rank[vertex] = max((rank[tail] + length for tail, length in incoming[vertex]), default=0)
     except CycleError as error:
         raise ValueError("a graph to be layered must have no cycle") from error

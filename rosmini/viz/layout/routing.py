@@ -78,9 +78,7 @@ def rectangles(proper: Proper, bands: Bands, vertices: Sequence[Vertex]) -> dict
     }
 
 
-def group_rectangles(
-    proper: Proper, bands: Bands, along: float, across: float
-) -> dict[tuple[str, ...], Rect]:
+def group_rectangles(proper: Proper, bands: Bands, along: float, across: float) -> dict[tuple[str, ...], Rect]:
     """Return a box around each group; `along` and `across` are the room at its beginning in the two directions."""
     boxes: dict[tuple[str, ...], Rect] = {}
     for group in reversed(proper.groups):  # inner boxes first, because the outer ones enclose them

@@ -109,8 +109,7 @@ def make_proper(vertices: Sequence[Vertex], edges: Sequence[Edge], first: str | 
     forward, lengths = _with_group_ties(vertices, forward, lengths)
     layer_of = layers(len(vertices), forward, lengths)
     by_name = {
-        vertex.name: _vertex_slot(vertex, layer_of[i], loops.get(vertex.name, []))
-        for i, vertex in enumerate(vertices)
+        vertex.name: _vertex_slot(vertex, layer_of[i], loops.get(vertex.name, [])) for i, vertex in enumerate(vertices)
     }
     rows: list[list[Slot]] = [[] for _ in range(max(layer_of) + 1)]
     for slot in by_name.values():

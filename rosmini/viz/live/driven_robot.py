@@ -163,9 +163,7 @@ class DrivenRobot:
         world, height = self.world, self.model.laser.mount[2]
         obstacles = (*self.fixed(), *self.moving())
         scene = scene_data(replace(world, obstacles=obstacles), self.model)
-        scene["shapes"] = [
-            self._flagged(obstacle, shape) for obstacle in obstacles for shape in shapes_of(obstacle)
-        ]
+        scene["shapes"] = [self._flagged(obstacle, shape) for obstacle in obstacles for shape in shapes_of(obstacle)]
         if world.wall_height < height:
             scene["low_walls"] = True
         return scene

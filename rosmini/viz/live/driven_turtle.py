@@ -78,9 +78,7 @@ class DrivenTurtle:
     def describe(self) -> str:
         """Return one line with the turtle's pose and the number of strokes, the same on every machine."""
         strokes = plural(self.sim.frame.paper.count, "stroke")
-        return (
-            f"{self.name} at {pose_text(self.sample_pose())} in the window of {self.sim.node.name}; {strokes}"
-        )
+        return f"{self.name} at {pose_text(self.sample_pose())} in the window of {self.sim.node.name}; {strokes}"
 
     def reset(self) -> None:
         """Reset the window by its service: one turtle in the middle and an empty background."""

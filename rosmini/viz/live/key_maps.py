@@ -107,9 +107,7 @@ def key_map(name: str = "turtlebot3_teleop_key") -> KeyMap:
         angular = max(turn for *_, turn in steps.values())
         moves = {key: (v / linear, 0.0, 0.0, w / angular) for key, (v, _, _, w) in steps.items()}
         buttons = ("", "w", "", "a", "s", "d", "", "x", "")
-        return KeyMap(
-            name, _with_arrows(moves, "wxad"), linear, angular, told["STOP"][::-1], buttons, adds=True
-        )
+        return KeyMap(name, _with_arrows(moves, "wxad"), linear, angular, told["STOP"][::-1], buttons, adds=True)
     if name == "teleop_twist_keyboard":
         told = _literals(name, f"{name}.py")
         return KeyMap(
@@ -118,9 +116,7 @@ def key_map(name: str = "turtlebot3_teleop_key") -> KeyMap:
         )  # fmt: skip
     if name == "turtle_teleop_key":
         told = _literals("turtlesim", name)
-        codes = dict(
-            zip("ABDC", ARROWS.values(), strict=True)
-        )  # the ends of what a terminal sends for arrow keys
+        codes = dict(zip("ABDC", ARROWS.values(), strict=True))  # the ends of what a terminal sends for arrow keys
         moves = {codes[key]: (ahead, 0.0, 0.0, turn) for key, (ahead, turn) in told["KEYS"].items()}
         buttons = ("", "ArrowUp", "", "ArrowLeft", " ", "ArrowRight", "", "ArrowDown", "")
         scale = told["SCALE"]
@@ -157,9 +153,7 @@ def _literals(package: str, script: str) -> Mapping[str, Any]:
         for target in statement.targets:
             if isinstance(target, ast.Tuple):
                 found.update(
-                    (each.id, part)
-                    for each, part in zip(target.elts, value, strict=True)
-                    if isinstance(each, ast.Name)
+                    (each.id, part) for each, part in zip(target.elts, value, strict=True) if isinstance(each, ast.Name)
                 )
             elif isinstance(target, ast.Name):
                 found[target.id] = value

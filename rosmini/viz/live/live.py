@@ -225,21 +225,8 @@ class Link(PageLink):
         scan, self._scan = self._scan, None
         teleop = pad.teleop
         window = None if pad.turtle is None else pad.turtle.state(*self._drawn)
-        drawn = (
-            ()
-            if window is None
-            else (window["next"], window["clears"], *(t["pose"] for t in window["turtles"]))
-        )
-        shown = (
-            *pose,
-            *drawn,
-            *teleop.target,
-            *teleop.command,
-            *teleop.speed,
-            teleop.keys.name,
-            blocked,
-            pad.sent,
-        )
+        drawn = () if window is None else (window["next"], window["clears"], *(t["pose"] for t in window["turtles"]))
+        shown = (*pose, *drawn, *teleop.target, *teleop.command, *teleop.speed, teleop.keys.name, blocked, pad.sent)
         # The Master, which may be remote, is asked for topics when the pad is opened.
         choices = self._choices if pad.turtle is None and pad.shown_robot is None else tuple(pad.choices)
         is_new, self._choices = choices != self._choices, choices

@@ -292,9 +292,7 @@ class _Handler(BaseHTTPRequestHandler):
         """Return the path below the token; send an error and return None if the request is not from our page."""
         hosts = {f"{name}:{self.pages.port}" for name in (LOOPBACK, "localhost")}
         origin = self.headers.get("Origin")
-        is_ours = self.headers.get("Host") in hosts and (
-            origin is None or origin.removeprefix("http://") in hosts
-        )
+        is_ours = self.headers.get("Host") in hosts and (origin is None or origin.removeprefix("http://") in hosts)
         root, _, rest = self.path.removeprefix("/").partition("/")
         if not is_ours or not secrets.compare_digest(root.encode(), self.pages.token.encode()):
             self._answer(HTTPStatus.NOT_FOUND, "text/plain", b"there is nothing here\n")

@@ -153,9 +153,7 @@ class TeleopPad(LiveView):
                 self._publisher.wait_for_subscribers(timeout=CONNECT_S)
             except ROSInterruptException:
                 raise
-            except (
-                ROSException
-            ):  # no subscriber answered in time: the publisher itself warns of messages that are lost
+            except ROSException:  # no subscriber answered in time: the publisher itself warns of messages that are lost
                 pass
 
     # -- driving -------------------------------------------------------------------------------------------------
@@ -236,9 +234,7 @@ class TeleopPad(LiveView):
             topic = self._set_driven(self._driven, name).topic
         else:
             if name not in self.choices:
-                raise TeleopError(
-                    f"no node subscribes to {name!r}; the pad can drive {', '.join(self.choices)}"
-                )
+                raise TeleopError(f"no node subscribes to {name!r}; the pad can drive {', '.join(self.choices)}")
             self._rest()
             topic = self.chosen = name
         self.teleop = Teleop(self._limits_now(), self.teleop.keys)
@@ -309,11 +305,7 @@ class TeleopPad(LiveView):
             return f"the node {self.node.name} was shut down."
         if self.shown_robot is not None or self.turtle is not None:
             try:
-                _ = (
-                    self.shown_robot.truth()
-                    if self.shown_robot is not None
-                    else self.turtle and self.turtle.turtle
-                )
+                _ = self.shown_robot.truth() if self.shown_robot is not None else self.turtle and self.turtle.turtle
             except RosminiError as error:
                 return str(error)
         return None

@@ -24,13 +24,7 @@ STEP = 0.005
 TURTLE_STEP = 0.004
 """Time step of a turtle in a page [s]: both its 16 ms and the 0.1 s between messages are multiples of it."""
 
-SCRIPTS = (
-    "rosmini-canvas.js",
-    "rosmini-teleop.js",
-    "rosmini-pad-style.js",
-    "rosmini-pad-keys.js",
-    "rosmini-pad.js",
-)
+SCRIPTS = ("rosmini-canvas.js", "rosmini-teleop.js", "rosmini-pad-style.js", "rosmini-pad-keys.js", "rosmini-pad.js")
 SOLID = "rosmini-meshcat.js"
 """Script that shows a robot in three dimensions."""
 HEIGHT = 420
@@ -61,11 +55,7 @@ def pad_data(pad: TeleopPad) -> dict[str, Any]:
     if pad.shown_robot is not None and pad.gone is None:
         x, y, theta = pad.shown_robot.sample_pose()
         pose = [round(x + 1e-8, 3) + 0.0, round(y + 1e-8, 3) + 0.0, round(theta + 1e-8, 4) + 0.0]
-        data |= {
-            "scene": pad.shown_robot.scene(),
-            "pose": pose,
-            "scan_rate": pad.shown_robot.model.laser.rate,
-        }
+        data |= {"scene": pad.shown_robot.scene(), "pose": pose, "scan_rate": pad.shown_robot.model.laser.rate}
         if pad.solid:
             data["solid"] = _solid(pad.shown_robot)
     return data
@@ -86,9 +76,7 @@ def _solid(shown_robot: DrivenRobot) -> dict[str, Any]:
 def _maps(pad: TeleopPad) -> list[str]:
     """Return the key maps that fit the pad: maps whose keys hold for a moment are for turtles."""
     return [
-        name
-        for name in NAMES
-        if pad.turtle is not None or key_map(name).holds is None or name == pad.teleop.keys.name
+        name for name in NAMES if pad.turtle is not None or key_map(name).holds is None or name == pad.teleop.keys.name
     ]
 
 

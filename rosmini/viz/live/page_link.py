@@ -65,9 +65,7 @@ class PageLink(ABC):
     signs: ClassVar[frozenset[str]] = frozenset({"hello", "beat"})
     """Kinds that only report that a page exists; while the graph is stopped they are answered and dropped."""
 
-    def __init__(
-        self, script: str, data: dict[str, Any], clock: Callable[[], float] = time.monotonic
-    ) -> None:
+    def __init__(self, script: str, data: dict[str, Any], clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
         self._heard = clock()
         self._lane: Lane | None = None

@@ -61,9 +61,7 @@ class SimulationView(LiveView):
     @property
     def names(self) -> tuple[str, ...]:
         """Names of everything that can be dragged."""
-        return self._run_in_scheduler(
-            lambda: tuple(body.name for body in self.watch.bodies() if body.is_draggable)
-        )
+        return self._run_in_scheduler(lambda: tuple(body.name for body in self.watch.bodies() if body.is_draggable))
 
     def pose(self, name: str) -> Pose:
         """Return the pose of a robot or an object: x [m], y [m], heading [rad]. Raises `ViewError` for another name."""
@@ -82,9 +80,7 @@ class SimulationView(LiveView):
             self._require()
             body = self.watch.body(name)
             heading = to[2] if len(to) == 3 else self.watch.pose(body)[2]
-            self._try(
-                lambda: self.watch.simulation.drag(body.name, (float(to[0]), float(to[1]), float(heading)))
-            )
+            self._try(lambda: self.watch.simulation.drag(body.name, (float(to[0]), float(to[1]), float(heading))))
             self.message = f"{body.name} is at {pose_text(self.watch.pose(body))}"
 
         self._run_in_scheduler(put)
@@ -159,9 +155,7 @@ class SimulationView(LiveView):
         time = f"{fixed(watch.host.now, 2)} s{', paused' if watch.host.paused else ''}"
         lines = [f"{self.heading}: {time}"]
         lines += [
-            f"{body.name} ({body.what}): {pose_text(watch.pose(body))}"
-            for body in watch.bodies()
-            if body.is_draggable
+            f"{body.name} ({body.what}): {pose_text(watch.pose(body))}" for body in watch.bodies() if body.is_draggable
         ]
         why = watch.gone
         if why is not None:

@@ -55,9 +55,7 @@ class Limits:
                 )
         for name, value in (("linear", self.linear_acceleration), ("angular", self.angular_acceleration)):
             if not value > 0:
-                raise TeleopError(
-                    f"the {name} acceleration of a pad must be positive or math.inf, not {value!r}"
-                )
+                raise TeleopError(f"the {name} acceleration of a pad must be positive or math.inf, not {value!r}")
 
 
 class Teleop:
@@ -70,10 +68,7 @@ class Teleop:
     def use(self, keys: KeyMap) -> None:
         """Switch to other keys, at their initial speed, and come to rest."""
         self.keys = keys
-        self.speed = (
-            _limited(keys.linear, self.limits.linear),
-            _limited(keys.angular, self.limits.angular),
-        )
+        self.speed = (_limited(keys.linear, self.limits.linear), _limited(keys.angular, self.limits.angular))
         """Speed that a key without steps sets."""
         self.stop()
 
@@ -154,9 +149,7 @@ class Teleop:
 def slopes_of(keys: KeyMap, limits: Limits) -> tuple[float, float]:
     """Return the maximum change of the command per cycle: linear [m/s], angular [rad/s]."""
     linear, angular = (SLOPE * keys.linear, SLOPE * keys.angular) if keys.adds else (math.inf, math.inf)
-    return min(linear, PERIOD * limits.linear_acceleration), min(
-        angular, PERIOD * limits.angular_acceleration
-    )
+    return min(linear, PERIOD * limits.linear_acceleration), min(angular, PERIOD * limits.angular_acceleration)
 
 
 def table(limits: Limits, keys: KeyMap | None = None) -> dict[str, Any]:

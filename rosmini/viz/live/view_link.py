@@ -37,12 +37,7 @@ if TYPE_CHECKING:
     from .simulation_view import SimulationView
     from .watch import Body
 
-SCRIPTS = (
-    "rosmini-canvas.js",
-    "rosmini-view-style.js",
-    "rosmini-view.js",
-    "rosmini-view-kernel.js",
-)
+SCRIPTS = ("rosmini-canvas.js", "rosmini-view-style.js", "rosmini-view.js", "rosmini-view-kernel.js")
 LASER_S = 0.1
 """Minimum interval between two laser measurements [s]."""
 
@@ -153,9 +148,7 @@ class ViewLink(PageLink):
             self._seen, self._last_looked = poses, now
             buffers.append(self._measure().tobytes())
         self._last, self._last_sent = shown, now
-        self._send(
-            {"type": "frame", "time": watch.host.now, "paused": watch.host.paused, "scans": looked}, buffers
-        )
+        self._send({"type": "frame", "time": watch.host.now, "paused": watch.host.paused, "scans": looked}, buffers)
 
     def _present(self) -> tuple[Any, ...]:
         """Return the objects that must stay identical for the page's copy of the world to remain valid."""

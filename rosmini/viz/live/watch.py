@@ -145,11 +145,7 @@ class Watch:
     def pose(self, body: Body) -> Pose:
         """Return its current pose: x [m], y [m], heading [rad]."""
         engine = self.engine
-        pose = (
-            engine.predict_pose(body.name, self.host.engine_now)
-            if body.kind == "robot"
-            else engine.pose(body.name)
-        )
+        pose = engine.predict_pose(body.name, self.host.engine_now) if body.kind == "robot" else engine.pose(body.name)
         return pose if body.axle == HERE else compose(pose, inverse(body.axle))
 
     def lasers(self, bodies: list[Body]) -> dict[str, LidarModel]:
@@ -196,9 +192,7 @@ class Watch:
         bodies = self.bodies()
         robots = [(body, self.pose(body)) for body in bodies if body.model is not None]
         things = [
-            replace(body.obstacle, pose=self.pose(body), motion=None)
-            for body in bodies
-            if body.obstacle is not None
+            replace(body.obstacle, pose=self.pose(body), motion=None) for body in bodies if body.obstacle is not None
         ]
         still = self.still()
         first = robots[0] if robots else None
@@ -206,11 +200,7 @@ class Watch:
             replace(still, obstacles=(*still.obstacles, *things)),
             robot=None if first is None else compose(first[1], first[0].axle),
             model=None if first is None else first[0].model,
-            others=[
-                Other(body.name, body.model, compose(pose, body.axle))
-                for body, pose in robots[1:]
-                if body.model
-            ],
+            others=[Other(body.name, body.model, compose(pose, body.axle)) for body, pose in robots[1:] if body.model],
             name="" if first is None else first[0].name,
             title=title,
         )

@@ -36,11 +36,7 @@ def body(model: RobotModel, node: str) -> list[Part]:
     outline = plate(x, 0.0, length, width, 0.022)
     plates = tuple(Prism(outline, z, z + THICKNESS) for z in floors)
     posts = tuple(
-        Rod(
-            (x + a * 0.048, b * (width / 2 - 0.014), (z + above + THICKNESS) / 2),
-            0.0032,
-            above - z - THICKNESS,
-        )
+        Rod((x + a * 0.048, b * (width / 2 - 0.014), (z + above + THICKNESS) / 2), 0.0032, above - z - THICKNESS)
         for z, above in pairwise(floors)
         for a in (-1, 1)
         for b in (-1, 1)
@@ -94,17 +90,14 @@ def _holes(x: float, length: float, width: float, heights: list[float]) -> Facet
     """Return the dark square holes of the plates, as tiles; below the highest plate, only the visible ones."""
     pitch, half = 0.0125, 0.0036
     rows, columns = int((length / 2 - 0.008) / pitch), int((width / 2 - 0.008) / pitch)
-    tile = np.array(
-        [(-half, -half, 0.0002), (half, -half, 0.0002), (half, half, 0.0002), (-half, half, 0.0002)]
-    )
+    tile = np.array([(-half, -half, 0.0002), (half, -half, 0.0002), (half, half, 0.0002), (-half, half, 0.0002)])
     return Facets(
         tuple(
             tile + np.array([x + i * pitch, j * pitch, z])
             for z in heights
             for i in range(-rows, rows + 1)
             for j in range(-columns, columns + 1)
-            if abs(i) + abs(j) < rows + columns - 1
-            and (z == heights[-1] or abs(i) == rows or abs(j) == columns)
+            if abs(i) + abs(j) < rows + columns - 1 and (z == heights[-1] or abs(i) == rows or abs(j) == columns)
         )
     )
 
@@ -119,10 +112,7 @@ def _inside(node: str, x: float, floors: list[float]) -> list[Part]:
     """Return the motors on the lowest floor, then battery, controller and computer, one per floor."""
     z0, z1, z2 = (z + THICKNESS for z in floors[:3])
     motors = tuple(box(0.004, side * 0.036, z0, 0.046, 0.052, 0.034) for side in (-1, 1))
-    controller = (
-        box(x, 0.0, z1 + 0.010, 0.105, 0.075, 0.0018),
-        box(x, 0.0, z2 + 0.008, 0.085, 0.056, 0.0018),
-    )
+    controller = (box(x, 0.0, z1 + 0.010, 0.105, 0.075, 0.0018), box(x, 0.0, z2 + 0.008, 0.085, 0.056, 0.0018))
     chips = (
         box(x + 0.012, 0.008, z2 + 0.0098, 0.015, 0.015, 0.0024),
         box(x - 0.014, -0.012, z2 + 0.0098, 0.012, 0.012, 0.0018),

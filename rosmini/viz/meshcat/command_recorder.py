@@ -36,9 +36,7 @@ def meshcat() -> ModuleType:
         except ImportError as error:
             from rosmini.viz.view import ViewError
 
-            raise ViewError(
-                "3D pictures need meshcat, which is not installed here: `pip install meshcat`"
-            ) from error
+            raise ViewError("3D pictures need meshcat, which is not installed here: `pip install meshcat`") from error
     module: ModuleType = meshcat
     return module
 

@@ -44,9 +44,7 @@ def _matches(data: bytes) -> Iterator[tuple[int, int, int]]:
     at = 0
     while at + MIN_MATCH <= len(data):
         places = known.setdefault(data[at : at + MIN_MATCH], [])
-        length, place = max(
-            ((_match_length(data, place, at), place) for place in places[-MAX_TRIES:]), default=(0, 0)
-        )
+        length, place = max(((_match_length(data, place, at), place) for place in places[-MAX_TRIES:]), default=(0, 0))
         places.append(at)
         if length:
             yield at, at - place, length

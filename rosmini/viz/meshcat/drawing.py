@@ -36,9 +36,7 @@ THINGS = ("group-fill", "group-line", "vermilion")
 def draw(scene: Scene3D, *, title: str, alt: str) -> str:
     """Return the scene as an SVG."""
     view = _View(scene.camera)
-    faces = [
-        face for polygon, colour in _all_polygons(scene) if (face := view.face(polygon, colour)) is not None
-    ]
+    faces = [face for polygon, colour in _all_polygons(scene) if (face := view.face(polygon, colour)) is not None]
     planes = np.array([face.plane for face in faces]).reshape(-1, 3)
     depth_buffer = DepthBuffer([face.outline for face in faces], planes, WIDTH, HEIGHT)
     body = [*_ground(scene, view), *_trails(scene, view), *_paths([faces[i] for i in depth_buffer.order])]
@@ -94,9 +92,7 @@ class _View:
         if not _is_visible(outline):
             return None
         across, up, ahead = -matrix_product(self._axes, normal) / towards
-        plane = (
-            np.array([across, -up, ahead * self._scale - across * WIDTH / 2 + up * HEIGHT / 2]) / self._scale
-        )
+        plane = np.array([across, -up, ahead * self._scale - across * WIDTH / 2 + up * HEIGHT / 2]) / self._scale
         light = 0.66 + 0.36 * max(0.0, scalar_product(normal, SUN) / size)
         channels = (min(255.0, int(colour[i : i + 2], 16) * light) for i in (1, 3, 5))
         return _Face(outline, plane, "#" + "".join(f"{int(snap(channel, 1.0)):02x}" for channel in channels))
@@ -135,9 +131,7 @@ def _ground(scene: Scene3D, view: _View) -> Iterator[str]:
     lines = (view.path(np.array([(*a, 0.0), (*b, 0.0)]), closed=False) for a, b in grid(scene.bounds))
     path = "".join(lines)
     if path:
-        yield element(
-            "path", d=path, fill="none", stroke=style.variable("group-line"), stroke_width=0.6, opacity=0.6
-        )
+        yield element("path", d=path, fill="none", stroke=style.variable("group-line"), stroke_width=0.6, opacity=0.6)
 
 
 def _trails(scene: Scene3D, view: _View) -> Iterator[str]:
@@ -222,9 +216,7 @@ class DepthBuffer:
         found: list[tuple[Ints, Ints, Floats]] = [(np.empty(0, int), np.empty(0, int), np.empty(0))]
         for i, outline in enumerate(outlines):
             x0, y0 = np.maximum(np.ceil(outline.min(axis=0) - 0.5), 0).astype(int)
-            x1, y1 = np.minimum(
-                np.floor(outline.max(axis=0) - 0.5), (self._width - 1, self._height - 1)
-            ).astype(int)
+            x1, y1 = np.minimum(np.floor(outline.max(axis=0) - 0.5), (self._width - 1, self._height - 1)).astype(int)
             if x0 > x1 or y0 > y1:
                 continue
             x, y = (part.ravel() for part in np.meshgrid(np.arange(x0, x1 + 1), np.arange(y0, y1 + 1)))
@@ -240,9 +232,7 @@ def _inverse_depths(points: Floats, plane: Floats) -> Floats:
     return snap(matrix_product(points, plane[:2]) + plane[2], 1e-7)
 
 
-def _sorted(
-    seen: list[int], pairs: list[tuple[int, int]], counts: list[int], far: dict[int, float]
-) -> list[int]:
+def _sorted(seen: list[int], pairs: list[tuple[int, int]], counts: list[int], far: dict[int, float]) -> list[int]:
     """Sort so that the first of every pair comes before the second; break cycles at the farthest."""
     votes = {(a, b): count for (a, b), count in zip(pairs, counts, strict=True)}
     after: dict[int, list[int]] = {i: [] for i in seen}

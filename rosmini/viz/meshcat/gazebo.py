@@ -83,9 +83,7 @@ def _add(scene: Scene3D, model: ShownModel, *, collisions: bool) -> None:
     node = "models/" + model.name.replace("/", " ")
     there = matrix(model.pose)
     for link in model.links:
-        parts = surfaces(
-            link, matrix_product(there, matrix(link.pose)), collisions=collisions, without=OMITTED_COLOURS
-        )
+        parts = surfaces(link, matrix_product(there, matrix(link.pose)), collisions=collisions, without=OMITTED_COLOURS)
         if parts:
             scene.place(node, there)
             below = f"{node}/{link.name.replace('/', ' ')}"
@@ -113,10 +111,7 @@ def _camera_on(
     x, y, z = (round(c, 3) for c in snap((low + high) / 2).tolist())
     sight = free_sight(there, (x, y, models[name].place[2]), away)
     return Camera(
-        (x, y, z),
-        away,
-        sight[0] if azimuth is None else azimuth,
-        sight[1] if elevation is None else elevation,
+        (x, y, z), away, sight[0] if azimuth is None else azimuth, sight[1] if elevation is None else elevation
     )
 
 

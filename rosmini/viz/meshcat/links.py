@@ -29,10 +29,7 @@ def turtlebot3(model: str) -> Robot:
 
 def link_parts(node: str, surfaces: list[Surface]) -> list[LinkPart]:
     """Return the surfaces of a link as parts below a node of the scene."""
-    return [
-        LinkPart(node, surface.name or str(i), hex_colour(surface), surface)
-        for i, surface in enumerate(surfaces)
-    ]
+    return [LinkPart(node, surface.name or str(i), hex_colour(surface), surface) for i, surface in enumerate(surfaces)]
 
 
 def hex_colour(surface: Surface) -> str:
@@ -42,9 +39,7 @@ def hex_colour(surface: Surface) -> str:
     return "#" + "".join(f"{math.floor(255 * part + 0.5):02x}" for part in surface.colour[:3])
 
 
-def link_surfaces(
-    robot: Robot, link: str, *, collisions: bool = False, without: Collection[str] = ()
-) -> list[Surface]:
+def link_surfaces(robot: Robot, link: str, *, collisions: bool = False, without: Collection[str] = ()) -> list[Surface]:
     """Return the visible parts of a link, in its frame: one surface per colour.
 
     A material of the URDF overrides the colours of a mesh file, as in RViz. Surfaces in one of the colours
@@ -55,8 +50,7 @@ def link_surfaces(
     pieces: list[Visual] = list(described.visuals)
     if collisions:
         pieces = [
-            Visual(each.geometry, each.origin, Material("", (0.9, 0.62, 0.0, 1.0)))
-            for each in described.collisions
+            Visual(each.geometry, each.origin, Material("", (0.9, 0.62, 0.0, 1.0))) for each in described.collisions
         ]
     for piece in pieces:
         colour = piece.material.colour if piece.material is not None else None

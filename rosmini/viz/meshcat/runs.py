@@ -73,9 +73,7 @@ def replay_3d(
 
     """
     if not sources or (names is not None and len(names) != len(sources)):
-        raise ViewError(
-            f"replay_3d needs at least one run, and as many names as runs, not {len(sources)} and {names}"
-        )
+        raise ViewError(f"replay_3d needs at least one run, and as many names as runs, not {len(sources)} and {names}")
     camera_args = {"focus": focus, "distance": distance, "azimuth": azimuth, "elevation": elevation}
     known = model(robot) if isinstance(robot, str) else robot
     made: list[MeshcatView] = []
@@ -123,9 +121,7 @@ def _recording(
     text = (
         f"3D replay: {model.name} in {world.name}, {driven}\n"
         f"from {pose_text(start)} to {pose_text(tuple(truth[-1].tolist()))}; odometry ends {off} m off"
-        + "".join(
-            f"\n{each.name} ({each.model.name}): {fixed(each.distance, 2)} m" for each in recording.others
-        )
+        + "".join(f"\n{each.name} ({each.model.name}): {fixed(each.distance, 2)} m" for each in recording.others)
         + "".join(f"\n{line}" for line in (kept.text().splitlines()[1:] if kept is not None else ()))
     )
     alt = (
@@ -172,9 +168,7 @@ def _run(
         scene, label=label, text=run.text(f"3D replay: {run.name}"), alt=alt, title=title, height=height,
         follow=f"/meshcat/{ROBOT}" if bodies and camera_args["focus"] == "robot" else None,
     )  # fmt: skip
-    view.svg = (
-        still_of(run, title=label, alt=run.alt()).svg or ""
-    )  # a drawing of bare ground would show nothing
+    view.svg = still_of(run, title=label, alt=run.alt()).svg or ""  # a drawing of bare ground would show nothing
     return view
 
 
@@ -234,9 +228,7 @@ def _scan_track(recording: Recording) -> dict[str, Any]:
     lidar = recording.model.laser
     fan = lidar.angle_max is not None or lidar.angle_min
     return {
-        **(
-            {"start": round(lidar.angle_min, 8), "step": round(BEAM_STEP * lidar.increment, 8)} if fan else {}
-        ),
+        **({"start": round(lidar.angle_min, 8), "step": round(BEAM_STEP * lidar.increment, 8)} if fan else {}),
         **({"increment": round(BEAM_STEP * recording.time_increment, 9)} if recording.time_increment else {}),
         "path": f"/meshcat/{ROBOT}/scan",
         "beams": ranges.shape[1],
@@ -255,9 +247,7 @@ class RunsView(MovingView):
     assets = (MESHCAT,)
     call = "rosminiMeshcat.mount"
 
-    def __init__(
-        self, runs: Sequence[MeshcatView], names: Sequence[str], *, title: str | None = None
-    ) -> None:
+    def __init__(self, runs: Sequence[MeshcatView], names: Sequence[str], *, title: str | None = None) -> None:
         self.runs = tuple(runs)
         self.names = tuple(names)
         self.title = title

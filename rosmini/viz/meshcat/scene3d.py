@@ -175,9 +175,7 @@ class Scene3D:
         self.parts.append(part)
         geometry, path = meshcat().geometry, self.visualizer[f"{part.node}/{part.name}".removeprefix("/")]
         material = geometry.MeshPhongMaterial(
-            color=int(part.colour[1:], 16),
-            shininess=20 + 60 * part.shine,
-            specular=int(90 * part.shine) * 0x010101,
+            color=int(part.colour[1:], 16), shininess=20 + 60 * part.shine, specular=int(90 * part.shine) * 0x010101
         )
         flat = [solid for solid in part.solids if isinstance(solid, Prism | Facets)]
         if flat:
@@ -295,8 +293,7 @@ class Scene3D:
                 continue
             above = f"{name}/{link.removesuffix('_link')}" if link.startswith("wheel_") else name
             self.place(
-                f"{above}/{link}",
-                matrix_product(inverse_matrix(self.nodes[above]), at) if above != name else at,
+                f"{above}/{link}", matrix_product(inverse_matrix(self.nodes[above]), at) if above != name else at
             )
             for part in link_parts(f"{above}/{link}", surfaces):
                 self.add_surface(part)
@@ -304,14 +301,10 @@ class Scene3D:
     def _solid(self, part: SimplePart, node: str, name: str, height: float) -> Part:
         """Return a part of a robot of which only the outlines are known."""
         bottom, top = part.bottom, min(part.top, height)
-        solids = tuple(
-            _upright(shape, pose, bottom, top) for shape, pose in simple_parts(part.shape, part.pose)
-        )
+        solids = tuple(_upright(shape, pose, bottom, top) for shape, pose in simple_parts(part.shape, part.pose))
         return Part(node, name, colour_of(part.colour), solids, shine=0.2)
 
-    def add_scan(
-        self, model: RobotModel, ranges: Floats, pose: Pose | Floats | None = None, name: str = ROBOT
-    ) -> None:
+    def add_scan(self, model: RobotModel, ranges: Floats, pose: Pose | Floats | None = None, name: str = ROBOT) -> None:
         """Add the scan of a robot that was added before: ranges (beams,) [m], not finite where nothing was hit.
 
         It was taken at `pose`, or each beam at one of several poses (beams, 3); by default at the robot's pose.
@@ -422,9 +415,7 @@ def scan_points(ranges: Floats, lidar: LidarModel) -> Floats:
     angles = lidar.angle_min + step
     hit = np.isfinite(ranges)
     reach = np.where(hit, ranges - (0.0 if lidar.noise else POINT_OFFSET), 0.0)
-    return rounded(
-        np.column_stack([reach * np.cos(angles), reach * np.sin(angles), np.where(hit, 0.0, -100.0)])
-    )
+    return rounded(np.column_stack([reach * np.cos(angles), reach * np.sin(angles), np.where(hit, 0.0, -100.0)]))
 
 
 def grid(bounds: tuple[float, float, float, float]) -> list[tuple[tuple[float, float], tuple[float, float]]]:

@@ -34,9 +34,7 @@ def urdf_3d(
     check_distance(distance)
     shapes = {name: link_surfaces(robot, name, collisions=collisions) for name in robot.links}
     places = robot.transforms(joints)
-    corners = [
-        surface.moved(places[name]).vertices for name, surfaces in shapes.items() for surface in surfaces
-    ]
+    corners = [surface.moved(places[name]).vertices for name, surfaces in shapes.items() for surface in surfaces]
     if not corners:
         what = "collision shapes" if collisions else "visual shapes"
         raise ViewError(f"the robot {robot.name!r} has no {what}: there is nothing to see")
@@ -64,9 +62,7 @@ def urdf_3d(
     at = {name: position for name, position in robot.positions(joints).items() if joints and name in joints}
     said = "".join(f"; {name} at {fixed(position, 2)}" for name, position in at.items())
     kind = "collision shapes of " if collisions else ""
-    text = (
-        f"3D: {kind}{robot.name}, {span} m, {plural(len(shown), 'link')} to see of {len(robot.links)}{said}"
-    )
+    text = f"3D: {kind}{robot.name}, {span} m, {plural(len(shown), 'link')} to see of {len(robot.links)}{said}"
     alt = (
         f"{robot.name} in three dimensions: {kind and 'its collision shapes, '}{span} metres, "
         f"with {', '.join(shown)}{said}."

@@ -182,9 +182,7 @@ def simulation_3d(
     """
     fixed_ones = [obstacle for obstacle in simulator.world.obstacles if obstacle.fixed]
     others = [
-        (name, robot.model, simulator.truth(name))
-        for name, robot in simulator.robots.items()
-        if name != simulator.name
+        (name, robot.model, simulator.truth(name)) for name, robot in simulator.robots.items() if name != simulator.name
     ]
     world = replace(simulator.world, obstacles=(*fixed_ones, *simulator.engine.obstacles()))
     scan = simulator.last_scan()

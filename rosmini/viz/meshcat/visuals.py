@@ -25,9 +25,7 @@ FLAT = 0.01
 """A level plane within this height [m] of 0 counts as the ground."""
 
 
-def surfaces(
-    link: ShownLink, place: Floats, *, collisions: bool = False, without: Iterable[str] = ()
-) -> list[Surface]:
+def surfaces(link: ShownLink, place: Floats, *, collisions: bool = False, without: Iterable[str] = ()) -> list[Surface]:
     """Return the visible surfaces of a link at `place` (4, 4) in the world, in its own frame: one per colour.
 
     The material of a visual overrides the colours of a mesh file, as in Gazebo. Surfaces of a file in a colour of
@@ -87,9 +85,7 @@ def _shape(shape: SdfGeometry) -> list[Surface]:
         case "plane":
             return [_plane(np.array(shape.normal), *shape.size)]
     outlines = [np.array(outline) for outline in shape.outlines]
-    return [
-        upright(outline if area(outline) > 0 else outline[::-1], 0.0, shape.length) for outline in outlines
-    ]
+    return [upright(outline if area(outline) > 0 else outline[::-1], 0.0, shape.length) for outline in outlines]
 
 
 def _plane(normal: Floats, length: float, width: float) -> Surface:

@@ -233,9 +233,7 @@ class MarkerCollector(ShapeCollector):
 
 def _hex(colour: Any) -> str:
     parts = [getattr(colour, name) for name in "rgb"]
-    return "#" + "".join(
-        f"{round(255 * min(1.0, max(0.0, p if math.isfinite(p) else 0.0))):02x}" for p in parts
-    )
+    return "#" + "".join(f"{round(255 * min(1.0, max(0.0, p if math.isfinite(p) else 0.0))):02x}" for p in parts)
 
 
 class GridCollector(Collector):
@@ -292,9 +290,7 @@ class GridCollector(Collector):
 
 
 def _cells(data: Any, width: int, height: int) -> NDArray[np.uint8]:
-    cells = (
-        np.frombuffer(data, dtype=np.uint8) if isinstance(data, bytes) else np.asarray(data, dtype=np.int8)
-    )
+    cells = np.frombuffer(data, dtype=np.uint8) if isinstance(data, bytes) else np.asarray(data, dtype=np.int8)
     if cells.size != width * height:
         raise ViewError(f"a map of {width} x {height} cells has data for {cells.size}")
     return cells.astype(np.uint8).reshape(height, width)
@@ -315,12 +311,7 @@ class ScanCollector(Collector):
         """Store its ranges and the pose of the laser."""
         ranges = np.asarray(message.ranges, dtype=float)
         every = -(-len(ranges) // MAX_BEAMS) or 1
-        fan = (
-            len(ranges),
-            float(message.angle_min),
-            float(message.angle_increment),
-            float(message.range_max),
-        )
+        fan = (len(ranges), float(message.angle_min), float(message.angle_increment), float(message.range_max))
         if not len(ranges) or not all(math.isfinite(part) for part in fan[:3]):
             raise ViewError("a scan has no beams, or angles that are not finite")
         if self._fan is None:

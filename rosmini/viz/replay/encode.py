@@ -69,18 +69,10 @@ def replay_data(recording: Recording) -> dict[str, Any]:
         "truth": pack(_track(recording.times, recording.truth, even)),
         "odom": pack(_track(recording.times, recording.odom_in_map(), even)),
         "commands": pack(
-            np.concatenate(
-                [
-                    whole(commands[:, 0], TIME),
-                    whole(commands[:, 1], LENGTH),
-                    whole(commands[:, 2], ANGLE),
-                ]
-            )
+            np.concatenate([whole(commands[:, 0], TIME), whole(commands[:, 1], LENGTH), whole(commands[:, 2], ANGLE)])
         ),
         "scan_times": pack(whole(recording.scan_times[::every], TIME)),
-        "scans": pack(
-            whole(np.where(np.isfinite(scans), scans, np.where(scans < 0, -unit, 0.0)), unit).ravel()
-        ),
+        "scans": pack(whole(np.where(np.isfinite(scans), scans, np.where(scans < 0, -unit, 0.0)), unit).ravel()),
     }
     if long:
         data["scan_unit"] = unit
@@ -110,9 +102,7 @@ def replay_data(recording: Recording) -> dict[str, Any]:
     return data
 
 
-def _track(
-    times: NDArray[np.float64], poses: NDArray[np.float64], at: NDArray[np.float64]
-) -> NDArray[np.int64]:
+def _track(times: NDArray[np.float64], poses: NDArray[np.float64], at: NDArray[np.float64]) -> NDArray[np.int64]:
     """Resample poses (n, 3) and return all x, all y, all headings."""
     return np.concatenate(
         [

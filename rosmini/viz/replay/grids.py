@@ -43,9 +43,7 @@ def grid(cells: NDArray[Any], resolution: float, origin: Pose) -> Grid:
     if cells.ndim != 2 or not cells.size:
         raise ViewError(f"a map of {' x '.join(str(n) for n in cells.shape[::-1])} cells has nothing to show")
     if not (np.isfinite([resolution, *origin]).all() and resolution > 0):
-        raise ViewError(
-            f"a map needs finite numbers and cells of a positive size, not of {resolution} m, at {origin}"
-        )
+        raise ViewError(f"a map needs finite numbers and cells of a positive size, not of {resolution} m, at {origin}")
     factor = -(-max(cells.shape) // MAX_CELLS)
     if factor > 1:
         cells, resolution = coarse(cells, factor), resolution * factor
@@ -111,9 +109,7 @@ class Grids(Frames):
         The previous map is placed at its offset; cells that it does not cover are unknown.
         """
         shown = [_rounded(each.cells) if self._is_costmap else each.cells for each in self.grids]
-        used = np.unique(
-            np.concatenate([np.array([UNKNOWN], dtype=np.uint8), *(cells.ravel() for cells in shown)])
-        )
+        used = np.unique(np.concatenate([np.array([UNKNOWN], dtype=np.uint8), *(cells.ravel() for cells in shown)]))
         values = [UNKNOWN, *(v for v in used.tolist() if v != UNKNOWN)]
         index = np.zeros(256, dtype=np.uint8)
         index[values] = np.arange(len(values))
@@ -160,18 +156,14 @@ class Grids(Frames):
         rows, columns = np.nonzero(cells != UNKNOWN)
         if not len(rows):
             return None
-        ends = np.array(
-            [(c, r) for c in (columns.min(), columns.max() + 1) for r in (rows.min(), rows.max() + 1)]
-        )
+        ends = np.array([(c, r) for c in (columns.min(), columns.max() + 1) for r in (rows.min(), rows.max() + 1)])
         c, s = np.cos(heading), np.sin(heading)
         return around([np.array([x, y]) + matrix_product(resolution * ends, np.array([[c, s], [-s, c]]))])
 
 
 def _rounded(cells: Cells) -> Cells:
     """Return costs in steps of `COSTS`; free, inscribed, lethal and unknown cells keep their values."""
-    return np.where((cells > 0) & (cells < 99), np.clip(cells // COSTS * COSTS, 1, 98), cells).astype(
-        np.uint8
-    )
+    return np.where((cells > 0) & (cells < 99), np.clip(cells // COSTS * COSTS, 1, 98), cells).astype(np.uint8)
 
 
 def _shift(before: Grid, after: Grid) -> tuple[int, int]:
@@ -202,9 +194,7 @@ def pasted(before: Cells | None, shape: tuple[int, ...], dx: int, dy: int) -> Ce
 def runs_of(before: Cells, after: Cells) -> NDArray[np.int64]:
     """Return the differences between two rows (n,) as runs (m, 3): number of unchanged cells, run length, value."""
     changed = before != after
-    starts = np.flatnonzero(
-        np.diff(changed, prepend=False) | (changed & (np.diff(after, prepend=after[:1]) != 0))
-    )
+    starts = np.flatnonzero(np.diff(changed, prepend=False) | (changed & (np.diff(after, prepend=after[:1]) != 0)))
     if not len(starts):
         return np.empty((0, 3), dtype=np.int64)
     ends = np.append(starts[1:], len(after))

@@ -80,9 +80,7 @@ class Images(Frames):
             "width": width,
             "height": height,
             "counts": pack(np.array([len(each) for each in runs], dtype=np.int64)),
-            "runs": pack_natural(
-                np.concatenate([np.empty(0, dtype=np.int64), *(each.ravel() for each in runs)])
-            ),
+            "runs": pack_natural(np.concatenate([np.empty(0, dtype=np.int64), *(each.ravel() for each in runs)])),
         }
 
     def text(self) -> str:

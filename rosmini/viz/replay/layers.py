@@ -131,9 +131,7 @@ class Shapes(Frames):
     def __post_init__(self) -> None:
         super().__post_init__()
         if len(self.items) != len(self.times):
-            raise ViewError(
-                f"the layer {self.name!r} has {len(self.times)} times but {len(self.items)} pictures"
-            )
+            raise ViewError(f"the layer {self.name!r} has {len(self.times)} times but {len(self.items)} pictures")
 
     def at(self, which: NDArray[np.intp]) -> Self:
         """Return the layer with only these moments."""
@@ -196,9 +194,7 @@ class Scans(Frames):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.poses.shape != (self.count, 3) or self.ranges.ndim != 2 or len(self.ranges) != self.count:
-            raise ViewError(
-                f"the scans {self.name!r} need as many poses (k, 3) and ranges (k, beams) as times"
-            )
+            raise ViewError(f"the scans {self.name!r} need as many poses (k, 3) and ranges (k, beams) as times")
 
     def at(self, which: NDArray[np.intp]) -> Self:
         """Return the layer with only these moments."""
@@ -249,10 +245,7 @@ class Stroke:
                 f"a stroke has times (n,) and points (n, 2), at least one, not {self.times.shape} and "
                 f"{self.points.shape}"
             )
-        if (
-            not (np.isfinite(self.points).all() and np.isfinite(self.times).all())
-            or (np.diff(self.times) < 0).any()
-        ):
+        if not (np.isfinite(self.points).all() and np.isfinite(self.times).all()) or (np.diff(self.times) < 0).any():
             raise ViewError("the times of a stroke must be in order, and its points be finite")
 
 

@@ -72,9 +72,7 @@ class BagLog:
 class MemoryLog:
     """Messages in memory: (time [s], topic, message)."""
 
-    def __init__(
-        self, name: str, messages: Collection[tuple[float, str, Any]], start: float, end: float
-    ) -> None:
+    def __init__(self, name: str, messages: Collection[tuple[float, str, Any]], start: float, end: float) -> None:
         self.name, self.start, self.end = name, start, end
         self.topics = {topic: message._type for _, topic, message in messages}
         self._messages = messages
@@ -132,15 +130,12 @@ def run_of(
         elif found is not None:
             layers.append(found)
         notes += [
-            f"{topic}: {plural(count, 'message')} left out: {reason}."
-            for reason, count in collector.left_out.items()
+            f"{topic}: {plural(count, 'message')} left out: {reason}." for reason, count in collector.left_out.items()
         ]
     if not bodies and not layers:
         raise NothingToSee(_nothing_to_see(log, notes))
     layers.sort(key=lambda layer: (layer.depth, "local" in layer.name, layer.name))
-    return Run(
-        log.name, log.start, log.end, tuple(bodies), tuple(layers), frame=frames.fixed, notes=tuple(notes)
-    )
+    return Run(log.name, log.start, log.end, tuple(bodies), tuple(layers), frame=frames.fixed, notes=tuple(notes))
 
 
 def _shown(log: Log, topics: Collection[str] | None) -> list[str]:
@@ -152,9 +147,7 @@ def _shown(log: Log, topics: Collection[str] | None) -> list[str]:
         topic
         for topic, kind in sorted(log.topics.items())
         if (kind in COLLECTORS or kind == UPDATE)
-        and (
-            topics is None or topic in topics or (kind == UPDATE and topic.removesuffix("_updates") in topics)
-        )
+        and (topics is None or topic in topics or (kind == UPDATE and topic.removesuffix("_updates") in topics))
     ]
 
 
@@ -266,9 +259,7 @@ def _process(collector: Collector, entry: Entry) -> None:
     collector.left_out[reason] = collector.left_out.get(reason, 0) + 1
 
 
-def _bodies(
-    frames: RecordedFrames, times: Any, outline: tuple[tuple[float, float], ...] | None
-) -> list[Body]:
+def _bodies(frames: RecordedFrames, times: Any, outline: tuple[tuple[float, float], ...] | None) -> list[Body]:
     found: list[Body] = []
     for frame in frames.bases():
         known, poses = frames.track(frame, times)

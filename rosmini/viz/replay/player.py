@@ -35,9 +35,7 @@ Source = Recording | Run | Bag | str | os.PathLike[str]
 class PlayerRun:
     """One run of a player: its data, its still picture and its description."""
 
-    def __init__(
-        self, source: Recording | Run, layers: Run | None = None, *, name: str | None = None
-    ) -> None:
+    def __init__(self, source: Recording | Run, layers: Run | None = None, *, name: str | None = None) -> None:
         self.source = source
         self.layers = layers
         self.name = name or self._default_name()
@@ -135,10 +133,7 @@ class ReplayView(MovingView):
         """Pictures of the runs, side by side."""
         if len(self.runs) == 1:
             return self.svg
-        drawn = [
-            element("div", run.still(run.name).svg or "", style="flex:1 1 18rem;min-width:0")
-            for run in self.runs
-        ]
+        drawn = [element("div", run.still(run.name).svg or "", style="flex:1 1 18rem;min-width:0") for run in self.runs]
         return element("div", "".join(drawn), style="display:flex;flex-wrap:wrap;gap:8px")
 
     @property
@@ -202,15 +197,12 @@ def replay(
 
     """
     if not sources or (names is not None and len(names) != len(sources)):
-        raise ViewError(
-            f"replay needs at least one run, and as many names as runs, not {len(sources)} and {names}"
-        )
+        raise ViewError(f"replay needs at least one run, and as many names as runs, not {len(sources)} and {names}")
     given: Sequence[str | None] = names or [None] * len(sources)
     known = model(robot) if isinstance(robot, str) else robot
     options: dict[str, Any] = {"topics": topics, "frame": frame}
     return ReplayView(
-        [_shown(source, name, known, options) for source, name in zip(sources, given, strict=True)],
-        title=title,
+        [_shown(source, name, known, options) for source, name in zip(sources, given, strict=True)], title=title
     )
 
 
@@ -220,9 +212,7 @@ def _shown(source: Source, name: str | None, robot: RobotModel | None, options: 
     return PlayerRun(run_from(source, robot=robot, **options), name=name)
 
 
-def run_from(
-    source: Run | Bag | str | os.PathLike[str], *, robot: RobotModel | None = None, **options: Any
-) -> Run:
+def run_from(source: Run | Bag | str | os.PathLike[str], *, robot: RobotModel | None = None, **options: Any) -> Run:
     """Return the run in a bag or in an MCAP file; a `Run` is returned as it is. `options` are those of `run_of`.
 
     Raises:
@@ -262,7 +252,5 @@ def recorder_run(recording: Recording, **options: Any) -> Run | None:
         run = run_of(MemoryLog("the run", messages, start, end), start_at=(x, y, heading), **options)
     except NothingToSee:
         return None
-    believed = (
-        () if run.frame == "odom" else tuple(replace(b, name=f"{b.name} in {run.frame}") for b in run.bodies)
-    )
+    believed = () if run.frame == "odom" else tuple(replace(b, name=f"{b.name} in {run.frame}") for b in run.bodies)
     return replace(run, bodies=believed) if run.layers or believed else None

@@ -60,9 +60,7 @@ class RecordedFrames:
         there = [*self.tree, *(name.lstrip("/") for name in others if name)]
         if frame is not None and frame.lstrip("/") not in there:
             names = ", ".join(sorted(set(there))) or "none at all"
-            raise ViewError(
-                f"no message contains the frame {frame!r} to draw the run in; the frames are {names}"
-            )
+            raise ViewError(f"no message contains the frame {frame!r} to draw the run in; the frames are {names}")
         usual = [name for name in FIXED_FRAMES if name in there]
         self.fixed = frame.lstrip("/") if frame is not None else next(iter([*usual, *there]), "")
 

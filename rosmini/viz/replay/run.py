@@ -61,10 +61,7 @@ class Body:
                 f"{self.name!r} needs times (n,) and poses (n, 3), at least one, not {self.times.shape} and "
                 f"{self.poses.shape}"
             )
-        if (
-            not (np.isfinite(self.poses).all() and np.isfinite(self.times).all())
-            or (np.diff(self.times) < 0).any()
-        ):
+        if not (np.isfinite(self.poses).all() and np.isfinite(self.times).all()) or (np.diff(self.times) < 0).any():
             raise ViewError(f"the times of {self.name!r} must be in order, and its poses be finite")
 
     def data(self) -> dict[str, Any]:
@@ -127,9 +124,7 @@ class Run:
                 f"the run {self.name!r} has no valid time span: it goes from {self.start} s to {self.end} s"
             )
         if not self.bodies and not self.layers:
-            raise ViewError(
-                f"there is nothing to see in the run {self.name!r}: it has no bodies and no layers"
-            )
+            raise ViewError(f"there is nothing to see in the run {self.name!r}: it has no bodies and no layers")
 
     @property
     def duration(self) -> float:
@@ -178,9 +173,7 @@ class Run:
     def alt(self) -> str:
         """Describe the contents in sentences."""
         where = f" in the frame {self.frame}" if self.frame else ""
-        said = [
-            f"Player of the run {self.name}, {fixed(self.duration, 1)} seconds long, seen from above{where}."
-        ]
+        said = [f"Player of the run {self.name}, {fixed(self.duration, 1)} seconds long, seen from above{where}."]
         said += [f"{body.name}: {body.text()}." for body in self.bodies[:4]]
         names = [layer.name for layer in self.layers]
         if names:
@@ -202,9 +195,7 @@ def thinned(layers: Sequence[Layer], budget: int) -> tuple[list[dict[str, Any]],
     less: set[str] = set()
     stuck: set[int] = set()
     while sum(sizes) > budget and len(stuck) < len(kept):
-        heaviest = max(
-            (i for i in range(len(kept)) if i not in stuck), key=lambda i: sizes[i] / kept[i].worth
-        )
+        heaviest = max((i for i in range(len(kept)) if i not in stuck), key=lambda i: sizes[i] / kept[i].worth)
         smaller = kept[heaviest].thinner()
         if smaller is None:
             stuck.add(heaviest)
@@ -212,10 +203,7 @@ def thinned(layers: Sequence[Layer], budget: int) -> tuple[list[dict[str, Any]],
         kept[heaviest], less = smaller, less | {smaller.name}
         data[heaviest] = smaller.data()
         sizes[heaviest] = size(data[heaviest])
-    notes = [
-        f"{name} is thinned, so that the page stays small: {_last(kept, name).text()}."
-        for name in sorted(less)
-    ]
+    notes = [f"{name} is thinned, so that the page stays small: {_last(kept, name).text()}." for name in sorted(less)]
     return data, notes
 
 

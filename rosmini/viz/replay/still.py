@@ -47,9 +47,7 @@ class Canvas:
         """Return the path data of a line without points that make no visible difference."""
         pixels = self.px(points)
         pixels = pixels[points_to_keep(pixels, TOLERANCE)] if len(pixels) > 2 else pixels
-        return (
-            "M" + "L".join(f"{number(x)},{number(y)}" for x, y in pixels.tolist()) + ("Z" if closed else "")
-        )
+        return "M" + "L".join(f"{number(x)},{number(y)}" for x, y in pixels.tolist()) + ("Z" if closed else "")
 
 
 def still_of(run: Run, *, title: str, alt: str) -> Picture:
@@ -57,13 +55,9 @@ def still_of(run: Run, *, title: str, alt: str) -> Picture:
     canvas = Canvas(run)
     parts = []
     if run.background is not None:
-        parts.append(
-            element("rect", width=canvas.width, height=canvas.height, style=f"fill:{run.background}")
-        )
+        parts.append(element("rect", width=canvas.width, height=canvas.height, style=f"fill:{run.background}"))
     parts += [_layer(layer, canvas, run.end) for layer in run.layers]
-    parts += [
-        _body(body, canvas, run.end) for body in run.bodies if body.shown_from <= run.end < body.shown_until
-    ]
+    parts += [_body(body, canvas, run.end) for body in run.bodies if body.shown_from <= run.end < body.shown_until]
     svg = document(
         element("g", "".join(parts), fill="none"), width=canvas.width, height=canvas.height, title=title, alt=alt,
         css="", colours=list(LIGHT), kind="rosmini-run",
@@ -93,11 +87,7 @@ def _paint(colour: str) -> str:
 
 
 def _path(data: str, colour: str, *, width: float = 2.0, fill: bool = False) -> str:
-    kind = (
-        f"fill:{_paint(colour)}"
-        if fill
-        else f"stroke:{_paint(colour)};stroke-width:{width:g};stroke-linecap:round"
-    )
+    kind = f"fill:{_paint(colour)}" if fill else f"stroke:{_paint(colour)};stroke-width:{width:g};stroke-linecap:round"
     return element("path", d=data, style=kind + ";stroke-linejoin:round")
 
 
@@ -118,16 +108,10 @@ def _grid(grid: Grid, scheme: str, canvas: Canvas) -> str:
     size = resolution * canvas.scale
     placed = f"translate({number(px)},{number(py)}) rotate({-turned:.3f}) scale({size:.4f},{-size:.4f})"
     drawn = [
-        element(
-            "path",
-            d="".join(data),
-            style=f"fill:#{red:02x}{green:02x}{blue:02x};fill-opacity:{alpha / 255:.2g}",
-        )
+        element("path", d="".join(data), style=f"fill:#{red:02x}{green:02x}{blue:02x};fill-opacity:{alpha / 255:.2g}")
         for (red, green, blue, alpha), data in sorted(paths.items())
     ]
-    if (
-        scheme == "map" and (cells == UNKNOWN).any()
-    ):  # below all others, since the known cells of a map cover it
+    if scheme == "map" and (cells == UNKNOWN).any():  # below all others, since the known cells of a map cover it
         unknown = hex_colour(colours_of(scheme)[UNKNOWN, :3].tolist())
         drawn.insert(0, element("rect", width=cells.shape[1], height=cells.shape[0], style=f"fill:{unknown}"))
     return element("g", "".join(drawn), transform=placed, opacity=f"{ALPHA:g}", shape_rendering="crispEdges")

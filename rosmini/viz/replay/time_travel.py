@@ -166,8 +166,7 @@ def _capture(setup: Setup, change: Change | None, at: float, seconds: float, see
         data = path.read_bytes()
     with Bag(BytesIO(data)) as bag:
         messages = tuple(
-            CapturedMessage(time, conn.topic, conn.type, content)
-            for conn, time, content, _, _ in bag.read_raw()
+            CapturedMessage(time, conn.topic, conn.type, content) for conn, time, content, _, _ in bag.read_raw()
         )
     return CapturedRun(data, messages, start, until_change, recording)
 

@@ -111,11 +111,7 @@ class LogTable(Table):
         title: str | None,
     ) -> None:
         rows = tuple(
-            Row(
-                tuple(_cell(message, column) for column in columns),
-                level=NAMES[message.level],
-                is_marked=is_marked,
-            )
+            Row(tuple(_cell(message, column) for column in columns), level=NAMES[message.level], is_marked=is_marked)
             for message, is_marked in zip(messages, marks, strict=True)
         )
         titles = tuple(column.capitalize() for column in columns)
@@ -210,9 +206,7 @@ def _check(name: str, known: Iterable[str], what: str) -> None:
     names = list(known)
     if name not in names:
         hint = nearest(name, names)
-        raise ViewError(
-            f"rqt_console has no {what} {name!r}{': ' + hint if hint else ''}. It has {', '.join(names)}."
-        )
+        raise ViewError(f"rqt_console has no {what} {name!r}{': ' + hint if hint else ''}. It has {', '.join(names)}.")
 
 
 def _matcher(pattern: str, regex: bool) -> Callable[[str], bool]:
@@ -259,9 +253,7 @@ class LogConsole(Panel):
     @classmethod
     def add_options(cls, parser: Parser) -> None:
         """Add the level."""
-        parser.add_option(
-            "--level", default="DEBUG", metavar="LEVEL", help="the lowest level: DEBUG to FATAL"
-        )
+        parser.add_option("--level", default="DEBUG", metavar="LEVEL", help="the lowest level: DEBUG to FATAL")
 
     @classmethod
     def arguments(cls, given: Values) -> tuple[list[str], dict[str, Any]]:
@@ -318,9 +310,7 @@ class LogConsole(Panel):
 
     def restore(self, settings: dict[str, Any]) -> None:
         """Restore the filters."""
-        self.filter(
-            **{name: value for name, value in settings.items() if type(value) is type(self.filters.get(name))}
-        )
+        self.filter(**{name: value for name, value in settings.items() if type(value) is type(self.filters.get(name))})
 
     def _operate(self, key: Sequence[str], value: Any) -> None:
         match key[0]:

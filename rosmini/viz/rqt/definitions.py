@@ -57,9 +57,7 @@ def _table(kind: str, title: str | None, parts: Callable[[], list[tuple[str, Mes
         for part, spec in found:
             head, path = f"{kind}{part}", part.lower() and f"{part.lower()}/"
             rows.append(Row((head, head, head)))
-            rows += [
-                Row((name, type_, f"{path}{where}"), depth) for depth, name, type_, where in _fields(spec)
-            ]
+            rows += [Row((name, type_, f"{path}{where}"), depth) for depth, name, type_, where in _fields(spec)]
     except (UnknownType, UnknownPackage, DefinitionError, IllegalName) as error:
         raise ViewError(str(error)) from error
     table = Rows(COLUMNS, tuple(rows), f"Fields of {kind}")
@@ -103,10 +101,7 @@ class _TypeBrowser(Panel):
 
     def parts(self) -> Sequence[Part]:
         """The type, and its fields."""
-        return [
-            bar(Control("type", "Type", "text", self.kind)),
-            self._table.part,
-        ]
+        return [bar(Control("type", "Type", "text", self.kind)), self._table.part]
 
     def _operate(self, _key: Sequence[str], value: Any) -> None:
         self.choose(value)

@@ -68,9 +68,7 @@ def draw(
         for vertex in sorted(vertices, key=lambda v: v.name)
     ]
     parts += [_group_name(path, rect) for path, rect in groups]
-    css = (
-        _css() + (CHANGES if selection.added or selection.removed else "") + (HIGHLIGHTS if highlight else "")
-    )
+    css = _css() + (CHANGES if selection.added or selection.removed else "") + (HIGHLIGHTS if highlight else "")
     colours = COLOURS + ([*LIT.values()] if highlight else [])
     return drawing(parts, layout, title=title, alt=alt, css=css, colours=colours)
 
@@ -98,8 +96,7 @@ def _sized(name: str, shape: str, edges: list[Edge], selection: Selection, names
     label = name[2:]
     width = text_width(label, style.TEXT_SIZE)
     busiest = max(
-        sum(1 for e in edges if e.source == name != e.target),
-        sum(1 for e in edges if e.target == name != e.source),
+        sum(1 for e in edges if e.source == name != e.target), sum(1 for e in edges if e.target == name != e.source)
     )
     around = [_namespaces(member) for member in selection.bundles.get(label, (label,))]
     groups = tuple(space for space in around[0][:namespaces] if all(space in spaces for spaces in around))
@@ -152,9 +149,7 @@ def _edge(route: Route, edge: Edge, labels: dict[str, str], change: str) -> str:
 
 
 def _group(path: tuple[str, ...], rect: Rect) -> str:
-    return element(
-        "g", element("title", escape(f"namespace {path[-1]}")) + box(rect, "group", 8.0), class_="rm-group"
-    )
+    return element("g", element("title", escape(f"namespace {path[-1]}")) + box(rect, "group", 8.0), class_="rm-group")
 
 
 def _group_name(path: tuple[str, ...], rect: Rect) -> str:

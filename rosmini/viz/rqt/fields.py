@@ -102,10 +102,7 @@ class Fields:
 def value_table(message: Any, shown: Callable[[Any], str]) -> Rows:
     """Return a row with the value of each field of a received message."""
     rows = (
-        Row(
-            (path.rpartition("/")[2], kind, "" if isinstance(value, Message) else shown(value)),
-            path.count("/"),
-        )
+        Row((path.rpartition("/")[2], kind, "" if isinstance(value, Message) else shown(value)), path.count("/"))
         for path, kind, value in walk(message)
     )
     return Rows(("Field", "Type", "Value"), tuple(rows), f"Values of {message._type}", "no fields")

@@ -91,12 +91,7 @@ def rqt_graph(
     if advice:
         text, alt = f"{text}\n{advice}", f"{alt} {advice}"
     svg = draw(
-        selection,
-        namespaces=namespaces,
-        direction=direction,
-        title=title or "rqt_graph",
-        alt=alt,
-        highlight=found,
+        selection, namespaces=namespaces, direction=direction, title=title or "rqt_graph", alt=alt, highlight=found
     )
     caption = " ".join(filter(None, (title, advice)))
     return Picture(svg, text=text, alt=alt, caption=caption or None)
@@ -182,9 +177,7 @@ class NodeGraph(Panel):
         parser.add_option(
             "--hide", metavar="LIST", help="debug, dead_sinks, leaf_topics, params, tf, unreachable, none"
         )
-        parser.add_option(
-            "--nodes", default="/", metavar="FILTER", help="names or regular expressions, - excludes"
-        )
+        parser.add_option("--nodes", default="/", metavar="FILTER", help="names or regular expressions, - excludes")
         parser.add_option("--topics", default="/", metavar="FILTER", help="likewise")
         parser.add_option("--group", metavar="LIST", help="what is one box: actions, images, tf, none")
         parser.add_option(
@@ -216,9 +209,7 @@ class NodeGraph(Panel):
         """Ask the Master and the nodes, without a node, and draw the graph."""
         master = call.peers.ask_as(CALLER_ID)
         state = GraphState.of(
-            master.ask("getSystemState"),
-            master.ask("getTopicTypes"),
-            unreachable=silent(call.peers, names(call.peers)),
+            master.ask("getSystemState"), master.ask("getTopicTypes"), unreachable=silent(call.peers, names(call.peers))
         )
         return rqt_graph(state, title=given.title, **cls.arguments(given)[1])
 
@@ -226,9 +217,7 @@ class NodeGraph(Panel):
         """Change options of the drawing. Raises ``ViewError`` for options and values unknown to :func:`rqt_graph`."""
         unknown = set(options) - set(self.options)
         if unknown:
-            raise ViewError(
-                f"rqt_graph has no option {', '.join(sorted(unknown))}; it has {', '.join(self.options)}"
-            )
+            raise ViewError(f"rqt_graph has no option {', '.join(sorted(unknown))}; it has {', '.join(self.options)}")
         wanted = self.options | options
         self.refresh()
         rqt_graph(self._state, **wanted)
@@ -264,9 +253,7 @@ class NodeGraph(Panel):
                 Control("mode", "Mode", "choice", options["mode"], get_args(Mode)),
                 Control("namespace", "Nodes", "text", options["namespace"]),
                 Control("topics", "Topics", "text", options["topics"]),
-                Control(
-                    "namespaces", "Namespaces", "number", float(options["namespaces"]), (), 0, 9, whole=True
-                ),
+                Control("namespaces", "Namespaces", "number", float(options["namespaces"]), (), 0, 9, whole=True),
                 Control("highlight", "Highlight", "choice", options["highlight"], shown),
                 Control("refresh", "Refresh", "button"),
             ),
@@ -289,9 +276,7 @@ class NodeGraph(Panel):
         if "graph_type_combo_box_index" in settings:
             wanted["mode"] = MODES[int(settings["graph_type_combo_box_index"])]
         for kind in ("hide", "group"):
-            chosen = {
-                name: name in self.options[kind] for name in get_args(Hide if kind == "hide" else Group)
-            }
+            chosen = {name: name in self.options[kind] for name in get_args(Hide if kind == "hide" else Group)}
             chosen |= {
                 name: str(settings[key]).lower() == "true"
                 for key, (at, name) in BOXES.items()

@@ -36,9 +36,7 @@ class GraphState:
     @property
     def topics(self) -> list[str]:
         """All topics with a publisher or a subscriber, sorted."""
-        return sorted(
-            {t for side in (self.publishers, self.subscribers) for t, nodes in side.items() if nodes}
-        )
+        return sorted({t for side in (self.publishers, self.subscribers) for t, nodes in side.items() if nodes})
 
     @property
     def all_nodes(self) -> list[str]:
@@ -61,9 +59,7 @@ class GraphState:
     def joined(self, other: GraphState) -> GraphState:
         """Return the union of two states."""
 
-        def both(
-            mine: Mapping[str, frozenset[str]], theirs: Mapping[str, frozenset[str]]
-        ) -> dict[str, frozenset[str]]:
+        def both(mine: Mapping[str, frozenset[str]], theirs: Mapping[str, frozenset[str]]) -> dict[str, frozenset[str]]:
             return {
                 topic: mine.get(topic, frozenset()) | theirs.get(topic, frozenset())
                 for topic in sorted({*mine, *theirs})
@@ -104,9 +100,7 @@ class GraphState:
 
         """
         try:
-            publishers, subscribers, services = (
-                [(str(n), frozenset(who)) for n, who in s] for s in system_state
-            )
+            publishers, subscribers, services = ([(str(n), frozenset(who)) for n, who in s] for s in system_state)
         except (TypeError, ValueError) as error:
             raise ViewError(
                 "a system state is [publishers, subscribers, services], each a list of [name, [node, ...]], as the "

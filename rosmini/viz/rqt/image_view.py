@@ -65,9 +65,7 @@ class ImageView(Panel):
 
             Span.of(call.graph, round(given.duration * 1e9)).wait(node, f"an image on {topic}", begin)
         if not images:
-            raise VerbError(
-                f"no image came on {topic} in {given.duration:g} s; see `rosmini rostopic info {topic}`"
-            )
+            raise VerbError(f"no image came on {topic} in {given.duration:g} s; see `rosmini rostopic info {topic}`")
         return image_picture(images[0], title=given.title or topic)
 
     def names(self) -> list[str]:

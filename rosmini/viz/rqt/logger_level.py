@@ -79,16 +79,12 @@ class LoggerLevel(Panel):
     def refresh(self) -> None:
         """Ask the node for its loggers again. Raises ``ServiceException``."""
         answer = self._ask(GET, "roscpp/GetLoggers")
-        self.loggers = {
-            each.name: each.level.capitalize() for each in sorted(answer.loggers, key=lambda one: one.name)
-        }
+        self.loggers = {each.name: each.level.capitalize() for each in sorted(answer.loggers, key=lambda one: one.name)}
 
     def set_level(self, logger: str, level: str) -> None:
         """Set the level of a logger: Debug, Info, Warn, Error or Fatal. Raises ``ViewError``, ``ServiceException``."""
         if level.capitalize() not in NAMES:
-            raise ViewError(
-                f"no level {level!r:.40}; {nearest(level, NAMES) or 'there are ' + ', '.join(NAMES)}"
-            )
+            raise ViewError(f"no level {level!r:.40}; {nearest(level, NAMES) or 'there are ' + ', '.join(NAMES)}")
         if logger not in self.loggers:
             hint = nearest(logger, self.loggers) or f"it has {', '.join(self.loggers) or 'none'}"
             raise ViewError(f"{self.chosen or 'no node'} has no logger {logger!r:.80}; {hint}")
@@ -113,21 +109,14 @@ class LoggerLevel(Panel):
                 (
                     name,
                     Control(
-                        f"level/{name}",
-                        f"level of {name}",
-                        "choice",
-                        level,
-                        tuple(dict.fromkeys((*NAMES, level))),
+                        f"level/{name}", f"level of {name}", "choice", level, tuple(dict.fromkeys((*NAMES, level)))
                     ),
                 )
             )
             for name, level in self.loggers.items()
         )
         return [
-            bar(
-                Control("node", "Node", "choice", self.chosen, choices),
-                Control("refresh", "Refresh", "button"),
-            ),
+            bar(Control("node", "Node", "choice", self.chosen, choices), Control("refresh", "Refresh", "button")),
             Rows(("Logger", "Level"), rows, "Loggers", "choose a node"),
         ]
 

@@ -95,22 +95,14 @@ def _breakable(text: str) -> str:
 
 
 def _control(control: Control) -> str:
-    common = {
-        "data_key": control.key,
-        "aria_label": control.label,
-        "aria_invalid": "true" if control.problem else None,
-    }
+    common = {"data_key": control.key, "aria_label": control.label, "aria_invalid": "true" if control.problem else None}
     match control.kind:
         case "button":
             pressed = str(control.value).lower() if isinstance(control.value, bool) else None
-            return element(
-                "button", escape(control.label), type="button", data_key=control.key, aria_pressed=pressed
-            )
+            return element("button", escape(control.label), type="button", data_key=control.key, aria_pressed=pressed)
         case "choice":
             options = "".join(
-                element(
-                    "option", escape(one) or " ", value=one, selected="" if one == control.value else None
-                )
+                element("option", escape(one) or " ", value=one, selected="" if one == control.value else None)
                 for one in control.choices
             )
             made = element("select", options or " ", **common)
@@ -141,13 +133,7 @@ def _rule(selector: str, _scope: str = NAME, **properties: str) -> str:
 
 
 _LINE = f"1px solid {variable('group-line')}"
-_BOX = {
-    "border": _LINE,
-    "border_radius": "6px",
-    "background": variable("page"),
-    "color": "inherit",
-    "font": "inherit",
-}
+_BOX = {"border": _LINE, "border_radius": "6px", "background": variable("page"), "color": "inherit", "font": "inherit"}
 
 _rule_of_table = partial(_rule, _scope=TABLE)
 

@@ -55,9 +55,7 @@ class Control:
         if self.kind == "choice":
             if given in self.choices:
                 return str(given)
-            raise ViewError(
-                f"{self.label!r} is one of {', '.join(self.choices) or 'nothing'}, not {given!r:.60}"
-            )
+            raise ViewError(f"{self.label!r} is one of {', '.join(self.choices) or 'nothing'}, not {given!r:.60}")
         return self._number(given) if self.kind in ("number", "slider") else str(given)
 
     def _number(self, given: object) -> float:
@@ -69,9 +67,7 @@ class Control:
         if not low <= number <= (float("inf") if high is None else high) or (self.whole and number % 1):
             bounds = f" from {self.minimum:g}" if self.minimum is not None else ""
             bounds += f" to {high:g}" if high is not None else ""
-            raise ViewError(
-                f"{self.label!r} is a {'whole ' if self.whole else ''}number{bounds}, not {given!r:.60}"
-            )
+            raise ViewError(f"{self.label!r} is a {'whole ' if self.whole else ''}number{bounds}, not {given!r:.60}")
         return number
 
     @property
@@ -232,10 +228,7 @@ def aligned(part: Rows) -> list[str]:
         lines.append(("  " * row.depth + ("*" if row.is_marked else "") + first, *others))
     cells = [[" ".join(cell.split("\n")) if i else cell for i, cell in enumerate(line)] for line in lines]
     widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
-    return [
-        "  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip()
-        for line in cells
-    ]
+    return ["  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip() for line in cells]
 
 
 def without_controls(part: Rows) -> Rows:

@@ -69,9 +69,7 @@ class Perspective:
         try:
             found = json.loads(text)
         except (ValueError, RecursionError) as error:
-            raise ViewError(
-                f"a perspective is JSON, as `Perspectives > Export` writes it: {error}"
-            ) from error
+            raise ViewError(f"a perspective is JSON, as `Perspectives > Export` writes it: {error}") from error
         manager = _group(found, "pluginmanager")
         plugins = _literal(_part(manager, "keys").get("running-plugins"))
         if not isinstance(plugins, dict):
@@ -96,10 +94,7 @@ class Perspective:
             for each in self.running
         }
         manager = {"keys": _keys({"running-plugins": plugins}), "groups": groups}
-        whole = {
-            "keys": {},
-            "groups": {"mainwindow": self.docks, "pluginmanager": manager},
-        }
+        whole = {"keys": {}, "groups": {"mainwindow": self.docks, "pluginmanager": manager}}
         return json.dumps(whole, indent=2, sort_keys=True) + "\n"
 
     def write(self, path: str | Path) -> None:

@@ -141,9 +141,7 @@ class Series:
             return
         value = value.to_sec() if hasattr(value, "to_sec") else value
         if not isinstance(value, Real):
-            self.problem = (
-                f"it is a {type(value).__name__} and no number; go on with one of its fields or elements"
-            )
+            self.problem = f"it is a {type(value).__name__} and no number; go on with one of its fields or elements"
             return
         self._times.append(time)
         self._values.append(float(value))
@@ -217,9 +215,7 @@ class Plot(Panel):
         for name, found in new.items():
             if name not in self._lines:
                 series = Series(name, found.path)
-                subscriber = self.node.subscriber(
-                    found.topic, class_of(found.type), self._hearer(series), numpy=False
-                )
+                subscriber = self.node.subscriber(found.topic, class_of(found.type), self._hearer(series), numpy=False)
                 self._lines[name] = (series, subscriber)
         self._drawn = None
 

@@ -63,10 +63,7 @@ class Plugin:
         parser = Parser("rqt", f"rosmini {cls.tool} [options] {cls.usage}".rstrip(), text, example=example)
         if cls.instead is None:
             parser.add_option(
-                "-o",
-                "--output",
-                metavar="FILE",
-                help="write the page (or .svg, .txt) there, and open nothing",
+                "-o", "--output", metavar="FILE", help="write the page (or .svg, .txt) there, and open nothing"
             )
             parser.add_option("--title", metavar="TEXT", help="a caption under the picture")
             parser.flag("--live", help="in a notebook: a panel that keeps running")

@@ -202,9 +202,7 @@ class MessagePublisher(Panel):
     def _operate(self, key: Sequence[str], value: Any) -> None:
         if key[0] == "add":
             known = dict(types(self.graph))
-            self.add(
-                self._next["topic"], known.get(self._next["topic"], self._next["type"]), self._next["rate"]
-            )
+            self.add(self._next["topic"], known.get(self._next["topic"], self._next["type"]), self._next["rate"])
         elif len(key) == 1:
             self._next[key[0]] = value
         else:

@@ -171,9 +171,7 @@ def _row(parameter: ReconfigurableParameter, value: Any) -> Row:
         if (low, high) != (None, None):
             range_text = " … ".join("" if end is None else number_text(end) for end in (low, high))
         if low is not None and high is not None and high > low:
-            second = Control(
-                f"slider/{name}", f"{name} (slider)", "slider", float(value), (), low, high, whole
-            )
+            second = Control(f"slider/{name}", f"{name} (slider)", "slider", float(value), (), low, high, whole)
     return Row((name, control, second, range_text, parameter.description))
 
 
@@ -186,6 +184,4 @@ def _choice(parameter: ReconfigurableParameter, value: Any) -> Control:
     constants = ast.literal_eval(parameter.edit_method).get("enum", [])
     names = [str(each["name"]) for each in constants]
     now = next((str(each["name"]) for each in constants if each["value"] == value), str(value))
-    return Control(
-        f"value/{parameter.name}", parameter.name, "choice", now, tuple(dict.fromkeys((*names, now)))
-    )
+    return Control(f"value/{parameter.name}", parameter.name, "choice", now, tuple(dict.fromkeys((*names, now))))

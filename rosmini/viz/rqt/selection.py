@@ -210,9 +210,7 @@ def _parameter_topics(topics: Collection[str]) -> set[str]:
     return found
 
 
-def _ends(
-    side: Mapping[str, frozenset[str]], topics: Collection[str], nodes: Collection[str]
-) -> list[tuple[str, str]]:
+def _ends(side: Mapping[str, frozenset[str]], topics: Collection[str], nodes: Collection[str]) -> list[tuple[str, str]]:
     return [(n, t) for t in topics for n in sorted(side.get(t, ())) if n in nodes]
 
 

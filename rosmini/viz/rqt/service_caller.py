@@ -77,9 +77,7 @@ class ServiceCaller(Panel):
             raise ViewError(f"the server of {service} does not answer: {error}") from error
         cls = service_class_of(kind) if kind else None
         if cls is None:
-            raise ViewError(
-                f"{service} is a {kind or 'service of an unknown type'}, which no package here defines"
-            )
+            raise ViewError(f"{service} is a {kind or 'service of an unknown type'}, which no package here defines")
         self.service, self._type, self._fields, self.response = service, cls, Fields(cls._request_class), None
 
     def fill(self, field: str, expression: str) -> None:

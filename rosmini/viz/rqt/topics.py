@@ -36,9 +36,7 @@ WINDOW, LONG_WINDOW = 100, 10_000
 """Number of messages from which a panel and a still compute rate and bandwidth."""
 
 
-def rqt_topic(
-    graph: Graph, *, expand: Collection[str] = (), duration: float = 2.0, title: str = "rqt_topic"
-) -> Table:
+def rqt_topic(graph: Graph, *, expand: Collection[str] = (), duration: float = 2.0, title: str = "rqt_topic") -> Table:
     """Listen to all topics for ``duration`` seconds of graph time, and show their rates, bandwidths and values.
 
     Args:
@@ -138,10 +136,7 @@ class TopicMonitor(Panel):
     """
 
     tool, heading, plugin = "rqt_topic", "Topic Monitor", "rqt_topic/TopicPlugin"
-    group, summary = (
-        "Topics",
-        "topics with types, bandwidths and rates, and the values of those that are named",
-    )
+    group, summary = ("Topics", "topics with types, bandwidths and rates, and the values of those that are named")
     usage, takes, example, listen_s = "[TOPIC...]", "topic", "/odom", 2.0
 
     def __init__(self, graph: Graph, *topics: str, name: str | None = None, window: int = WINDOW) -> None:
@@ -172,17 +167,12 @@ class TopicMonitor(Panel):
             return
         known = known_topics(self.graph)
         if topic not in known:
-            raise ViewError(
-                f"there is no topic {topic!r:.80}; {nearest(topic, known) or '`rostopic list` lists all'}"
-            )
+            raise ViewError(f"there is no topic {topic!r:.80}; {nearest(topic, known) or '`rostopic list` lists all'}")
         if topic not in self._heard:
             one = Heard(self._window)
             graph = self.graph
             subscriber = self.node.subscriber(
-                topic,
-                class_of(known[topic]),
-                lambda message: one.hear(graph.now().to_nsec(), message),
-                numpy=False,
+                topic, class_of(known[topic]), lambda message: one.hear(graph.now().to_nsec(), message), numpy=False
             )
             self._heard[topic] = (one, subscriber)
 
@@ -201,8 +191,7 @@ class TopicMonitor(Panel):
             rows.append(Row((topic, tick, kind, *figures, "not heard" if one and one.last is None else "")))
             if one is not None and one.last is not None and topic in expand:
                 rows += [
-                    Row((name, "", kind, "", "", value), depth)
-                    for depth, name, kind, value in fields_of(one.last)
+                    Row((name, "", kind, "", "", value), depth) for depth, name, kind, value in fields_of(one.last)
                 ]
         return Rows(("Topic", "Hear", "Type", "Bandwidth", "Hz", "Value"), tuple(rows), "Topics", "no topics")
 

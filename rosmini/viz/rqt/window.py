@@ -86,9 +86,7 @@ class Rqt(Panel):
         wanted = list(given.words)
         if given.perspective_file:
             wanted = [each.plugin for each in Perspective.read(given.perspective_file).running] + wanted
-        print(
-            "A window of several plugins is for notebooks (%rqt_gui). In a terminal each is a command of its own:"
-        )
+        print("A window of several plugins is for notebooks (%rqt_gui). In a terminal each is a command of its own:")
         for plugin in wanted or [each.tool for each in plugins() if each is not cls]:
             found = here.get(plugin.partition("/")[0], "no plugin of rqt")
             is_command = found.startswith(("ros", "rqt", "rviz"))
@@ -175,16 +173,12 @@ class Rqt(Panel):
         groups: dict[str, list[str]] = {}
         for entry in menu():
             groups.setdefault(entry.group, [""]).append(entry.name)
-        menus = [
-            Control(f"plugins/{group}", group, "choice", "", tuple(names)) for group, names in groups.items()
-        ]
+        menus = [Control(f"plugins/{group}", group, "choice", "", tuple(names)) for group, names in groups.items()]
         running: list[Cell] = [
             Control(f"run/{number}", panel.heading, "check", True) for number, panel in self.running.items()
         ] or ["nothing"]
         boxes = [
-            Box(
-                panel.heading, within(str(number), panel.shown()), Control(f"end/{number}", "Close", "button")
-            )
+            Box(panel.heading, within(str(number), panel.shown()), Control(f"end/{number}", "Close", "button"))
             for number, panel in self.running.items()
         ]
         return [

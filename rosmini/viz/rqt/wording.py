@@ -87,10 +87,7 @@ def _flows(selection: Selection) -> list[tuple[tuple[str, ...], str, tuple[str, 
         for role, pairs in enumerate((selection.publications, selection.subscriptions)):
             for node, topic in pairs:
                 ends[topic][role].add(node)
-    return [
-        (tuple(sorted(sources)), topic, tuple(sorted(sinks)))
-        for topic, (sources, sinks) in sorted(ends.items())
-    ]
+    return [(tuple(sorted(sources)), topic, tuple(sorted(sinks))) for topic, (sources, sinks) in sorted(ends.items())]
 
 
 def _clause(publishers: Collection[str], topic: str, subscribers: Collection[str]) -> str:

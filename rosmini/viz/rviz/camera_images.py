@@ -53,20 +53,11 @@ def pin_hole(info: Any, width: int, height: int) -> PinHole:
     if len(p) != 12 or not np.isfinite(p).all():
         raise DisplayError("Contains invalid floating point values (nans or infs)")
     if p[0] <= 0 or p[5] <= 0:
-        raise DisplayError(
-            f"the focal lengths in CameraInfo/P must be more than 0, not {p[0]:g} and {p[5]:g}"
-        )
+        raise DisplayError(f"the focal lengths in CameraInfo/P must be more than 0, not {p[0]:g} and {p[5]:g}")
     if max(info.width, info.height) > MAX_SIDE:
         raise DisplayError(f"an image of {info.width} x {info.height} pixels is too large to draw")
     return PinHole(
-        p[0],
-        p[5],
-        p[2],
-        p[6],
-        int(info.width) or width,
-        int(info.height) or height,
-        -p[3] / p[0],
-        -p[7] / p[5],
+        p[0], p[5], p[2], p[6], int(info.width) or width, int(info.height) or height, -p[3] / p[0], -p[7] / p[5]
     )
 
 
@@ -118,9 +109,7 @@ def depths(message: Any) -> Floats:
     """Return the depths (h, w) [m] of a `sensor_msgs/Image`, nan for none. Raises `DisplayError` if it has none."""
     check_image(message)
     if ENCODINGS[message.encoding].order:
-        raise DisplayError(
-            f"an image with the encoding [{message.encoding}] has no depths; use 32FC1 or 16UC1"
-        )
+        raise DisplayError(f"an image with the encoding [{message.encoding}] has no depths; use 32FC1 or 16UC1")
     try:
         return np.asarray(pixels_of(message), dtype=float)
     except ViewError as error:
@@ -144,9 +133,7 @@ def thinned_image(pixels: Pixels) -> Pixels:
 def resized(pixels: Pixels, width: int, height: int, zoom: float = 1.0) -> Pixels:
     """Return pixels (h, w, 3) in another size, magnified around the centre; black outside the image."""
     rows = np.floor(((np.arange(height) + 0.5) / height - 0.5) / zoom * len(pixels) + len(pixels) / 2)
-    columns = np.floor(
-        ((np.arange(width) + 0.5) / width - 0.5) / zoom * pixels.shape[1] + pixels.shape[1] / 2
-    )
+    columns = np.floor(((np.arange(width) + 0.5) / width - 0.5) / zoom * pixels.shape[1] + pixels.shape[1] / 2)
     found = np.zeros((height, width, 3), dtype=np.uint8)
     i, j = ((rows >= 0) & (rows < len(pixels))), ((columns >= 0) & (columns < pixels.shape[1]))
     found[np.ix_(i, j)] = pixels[np.ix_(rows[i].astype(int), columns[j].astype(int))]

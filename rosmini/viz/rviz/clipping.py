@@ -79,25 +79,19 @@ def _coarser(pixels: Pixels) -> Iterator[Pixels]:
         yield reduced
 
 
-def _outlines(
-    pixels: Pixels, texture: Texture, projection: Perspective, most: int
-) -> dict[bytes, list[Floats]] | None:
+def _outlines(pixels: Pixels, texture: Texture, projection: Perspective, most: int) -> dict[bytes, list[Floats]] | None:
     """Return the outlines of each colour within the picture, or None if there are more than `most`."""
     cell = np.array(texture.size) / (pixels.shape[1], pixels.shape[0])
     outlines: dict[bytes, list[Floats]] = {}
     count = 0
     for x0, y0, x1, y1 in _rectangles(pixels):
         flat = np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]) * cell
-        corners = (
-            matrix_product(np.column_stack([flat, np.zeros(4)]), texture.pose[:3, :3].T) + texture.pose[:3, 3]
-        )
+        corners = matrix_product(np.column_stack([flat, np.zeros(4)]), texture.pose[:3, :3].T) + texture.pose[:3, 3]
         corners = _clipped_polygon(corners, _distances(corners, projection))
         if len(corners) < 3:
             continue
         outline = projection.pixels(corners)
-        if (outline.max(axis=0) > 0).all() and (
-            outline.min(axis=0) < (projection.width, projection.height)
-        ).all():
+        if (outline.max(axis=0) > 0).all() and (outline.min(axis=0) < (projection.width, projection.height)).all():
             if (count := count + 1) > most:
                 return None
             outlines.setdefault(pixels[y0, x0, :3].tobytes(), []).append(outline)

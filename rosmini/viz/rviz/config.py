@@ -140,9 +140,7 @@ class Config:
 
     def unknown_classes(self) -> list[str]:
         """Return the classes of panels and tools that are unknown here."""
-        kinds: list[tuple[str, tuple[str, ...], str]] = [
-            (kind_of(each), PANELS, "panel") for each in self.panels
-        ]
+        kinds: list[tuple[str, tuple[str, ...], str]] = [(kind_of(each), PANELS, "panel") for each in self.panels]
         kinds += [(kind_of(each), TOOLS, "tool") for each in self.mappings("Tools")]
         return [
             f"{what} {kind}"

@@ -63,11 +63,7 @@ class Context:
     def knows(self, frame: str) -> bool:
         """Return True if tf has a frame and the fixed frame; otherwise a lookup would fail."""
         name = frame.lstrip("/")
-        return (
-            frame == FIXED_FRAME
-            or name == self.fixed_frame
-            or (name in self.tree and self.fixed_frame in self.tree)
-        )
+        return frame == FIXED_FRAME or name == self.fixed_frame or (name in self.tree and self.fixed_frame in self.tree)
 
     def is_past(self, frame: str, stamp_ns: int) -> bool:
         """Return True if a transform is missing because its time is too long ago for it to arrive any more."""
@@ -106,9 +102,7 @@ class Context:
         publishers = self._publishers.get(name, [])
         found = self._types.get(name, kind)
         if publishers and found not in (kind, "*"):
-            return NoMessages(
-                f"{name} has the type {found}, and this display shows {kind}", is_permanent=True
-            )
+            return NoMessages(f"{name} has the type {found}, and this display shows {kind}", is_permanent=True)
         if not publishers:
             return NoMessages(f"nobody publishes {name}")
         return NoMessages(f"{', '.join(sorted(publishers))} published nothing yet")

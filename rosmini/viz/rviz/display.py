@@ -52,11 +52,7 @@ class Status(NamedTuple):
     text: str
 
     def __str__(self) -> str:
-        return (
-            f"{self.name}: {self.text}"
-            if self.level is Level.OK
-            else f"{self.name}: {self.level}: {self.text}"
-        )
+        return f"{self.name}: {self.text}" if self.level is Level.OK else f"{self.name}: {self.level}: {self.text}"
 
 
 class Display(Plugin, ABC):
@@ -139,13 +135,7 @@ class Display(Plugin, ABC):
     def tree(self) -> dict[str, Any]:
         """Return its part of a `.rviz` file."""
         kept = self._values.tree()
-        return {
-            **kept,
-            "Class": self.plugin_name,
-            "Name": self.name,
-            "Enabled": self.enabled,
-            "Value": self.enabled,
-        }
+        return {**kept, "Class": self.plugin_name, "Name": self.name, "Enabled": self.enabled, "Value": self.enabled}
 
     # -- running -------------------------------------------------------------------------------------------------
 
@@ -193,12 +183,7 @@ class Display(Plugin, ABC):
             self.attach(self._context)
 
     def subscribe(
-        self,
-        context: Context,
-        topic: str,
-        kind: str,
-        callback: Callable[[Any], object],
-        queue_size: int | None = None,
+        self, context: Context, topic: str, kind: str, callback: Callable[[Any], object], queue_size: int | None = None
     ) -> None:
         """Subscribe while the display is switched on. Raises the errors of `Node.subscriber`."""
         self._subscriptions.append(context.subscribe(topic, kind, callback, queue_size))

@@ -77,13 +77,9 @@ def same_shape(one: Primitive, other: Primitive) -> bool:
         case Texture(), Texture():
             return (one.size, one.behind) == (other.size, other.behind) and _same(one, other, "pixels")
         case Points(), Points():
-            return (one.size, one.style) == (other.size, other.style) and _same(
-                one, other, "points", "colours"
-            )
+            return (one.size, one.style) == (other.size, other.style) and _same(one, other, "points", "colours")
         case Lines(), Lines():
-            return (one.width, one.strip) == (other.width, other.strip) and _same(
-                one, other, "points", "colours"
-            )
+            return (one.width, one.strip) == (other.width, other.strip) and _same(one, other, "points", "colours")
         case _:
             return False
 

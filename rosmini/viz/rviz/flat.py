@@ -80,9 +80,7 @@ def draw(
         "svg", "".join(parts), width=width, height=height, overflow="hidden", stroke_linejoin="round",
     )  # fmt: skip
     below, high = _panes(panes, width, height)
-    return document(
-        body + below, width=width, height=high, title=title, alt=alt, css="", colours=["ink"], kind=KIND
-    )
+    return document(body + below, width=width, height=high, title=title, alt=alt, css="", colours=["ink"], kind=KIND)
 
 
 def _panes(panes: Sequence[Pane], width: float, top: float) -> tuple[str, float]:
@@ -99,13 +97,9 @@ def _panes(panes: Sequence[Pane], width: float, top: float) -> tuple[str, float]
             opaque = np.dstack([pane.pixels[..., :3], np.full((tall, across), 255, np.uint8)])
             data, _ = gif(opaque)
             heading = f"{pane.title}: {pane.text}" if pane.text else pane.title
+            parts.append(element("text", escape(heading), x=x, y=top + 17, font_size=LABEL_SIZE, fill=variable("ink")))
             parts.append(
-                element("text", escape(heading), x=x, y=top + 17, font_size=LABEL_SIZE, fill=variable("ink"))
-            )
-            parts.append(
-                element(
-                    "image", href=gif_url(data), x=x, y=top + 24, width=across * scale, height=tall * scale
-                )
+                element("image", href=gif_url(data), x=x, y=top + 24, width=across * scale, height=tall * scale)
             )
             highest = max(highest, tall * scale)
         top += 24 + highest + GAP
@@ -125,9 +119,7 @@ def _elements(primitive: Primitive, projection: Projection) -> Iterator[str]:
 
 def _joined(shown: Sequence[Primitive]) -> Iterator[Primitive]:
     """Yield primitives in order; consecutive points of the same style, such as old scans, are joined."""
-    for alike, group in groupby(
-        shown, key=lambda each: (each.style, each.size) if isinstance(each, Points) else None
-    ):
+    for alike, group in groupby(shown, key=lambda each: (each.style, each.size) if isinstance(each, Points) else None):
         several = list(group)
         clouds = [each for each in several if isinstance(each, Points)]
         if alike is None or len(clouds) == 1 or sum(len(each.points) for each in clouds) > MAX_POINTS:
@@ -216,9 +208,7 @@ def _one_per_cell(flat: Floats, quantum: float) -> Ints:
 
 
 def _lines(lines: Lines, projection: Projection) -> Iterator[str]:
-    width = max(
-        MIN_LINE, min(float(snap(lines.width * projection.scale_at(lines.points), 0.1)), projection.width)
-    )
+    width = max(MIN_LINE, min(float(snap(lines.width * projection.scale_at(lines.points), 0.1)), projection.width))
     if lines.strip and lines.colours.ndim == 1:
         flat = projection.pixels(lines.points)
         data = _path_data(_smoothed(flat))
@@ -275,9 +265,7 @@ def _mesh(mesh: Mesh, projection: Projection) -> Iterator[str]:
     see_through = mesh.colours.ndim == 1 and mesh.colours[3] < OPAQUE
     if mesh.lit and not see_through:  # otherwise edges would be visible where faces overlap
         light = 0.7 + 0.3 * np.clip(matrix_product(normals[order], SUN) / sizes[order], 0.0, 1.0)
-    colours = (
-        mesh.colours[order] if mesh.colours.ndim == 2 else np.tile(mesh.colours, (len(order), 1))
-    ).copy()
+    colours = (mesh.colours[order] if mesh.colours.ndim == 2 else np.tile(mesh.colours, (len(order), 1))).copy()
     colours[:, :3] *= light[:, None]
     steps = _quantised(colours, len(order))
     start = 0
@@ -351,9 +339,7 @@ def _filled(outlines: Iterable[Floats], colour: Floats) -> str:
     data = "".join(_path_data(each) + "z" for each in outlines if len(each) > 2)
     paint = _hex(colour)
     opacity = _opacity(colour[3])
-    return (
-        element("path", d=data, fill=paint, stroke=paint, stroke_width=0.5, opacity=opacity) if data else ""
-    )
+    return element("path", d=data, fill=paint, stroke=paint, stroke_width=0.5, opacity=opacity) if data else ""
 
 
 def _opacity(alpha: float) -> str | None:

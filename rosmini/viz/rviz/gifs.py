@@ -27,9 +27,7 @@ def gif(pixels: Pixels) -> tuple[bytes, float]:
     if len(found) > 256:
         return _reduced(pixels, clear), round(opacity, 3)
     image = Image.fromarray(places.reshape(clear.shape).astype(np.uint8), mode="P")
-    image.putpalette(
-        np.stack([found >> 16 & 255, found >> 8 & 255, found & 255], axis=1).astype(np.uint8).tobytes()
-    )
+    image.putpalette(np.stack([found >> 16 & 255, found >> 8 & 255, found & 255], axis=1).astype(np.uint8).tobytes())
     return _written(image, int(len(found) - 1) if clear.any() else None), round(opacity, 3)
 
 

@@ -59,9 +59,7 @@ class Handle:
             if control.name == name or (not name and control.interaction_mode != Control.NONE):
                 return control
         names = ", ".join(repr(control.name) for control in self.message.controls)
-        raise DisplayError(
-            f"the marker {self.message.name!r} has no control {name!r:.60}; it has {names or 'none'}"
-        )
+        raise DisplayError(f"the marker {self.message.name!r} has no control {name!r:.60}; it has {names or 'none'}")
 
     def control_frame(self, control: Any) -> Floats:
         """Return the frame (4, 4) of a control in that of the marker's header."""
@@ -110,9 +108,7 @@ class Handle:
             (text,) = title_control(self.message).markers
             yield from marker_primitives(
                 text,
-                matrix_product(
-                    matrix_product(self.frame, self._upright()), matrix(self.received.local(text.pose))
-                ),
+                matrix_product(matrix_product(self.frame, self._upright()), matrix(self.received.local(text.pose))),
             )
 
     def axes(self) -> Iterator[Primitive]:

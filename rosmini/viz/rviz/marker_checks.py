@@ -74,10 +74,7 @@ def _scale(marker: Any) -> Iterator[Finding]:
     elif kind == Marker.TEXT_VIEW_FACING:
         used, text = (z,), "Text height of TEXT_VIEW_FACING is 0.0 (scale.z)."
     else:
-        used, text = (
-            (x, y) if kind == Marker.ARROW and x and y else (x, y, z),
-            "Scale contains 0.0 in x, y or z.",
-        )
+        used, text = ((x, y) if kind == Marker.ARROW and x and y else (x, y, z), "Scale contains 0.0 in x, y or z.")
     if 0.0 in used:
         yield _WARN, text
     if any(value < 0 for value in used):

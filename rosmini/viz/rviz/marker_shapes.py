@@ -96,9 +96,7 @@ def _arrow(marker: Any, pose: Floats, scale: Floats, colour: Floats) -> Iterator
     length = norm(end - start)
     if length > 0:
         head = min(float(scale[2]) or HEAD * length, length)
-        yield arrow(
-            towards(start, end), colour, length - head, float(scale[0]) / 2, head, float(scale[1]) / 2
-        )
+        yield arrow(towards(start, end), colour, length - head, float(scale[0]) / 2, head, float(scale[1]) / 2)
 
 
 def towards(start: Floats, end: Floats) -> Floats:

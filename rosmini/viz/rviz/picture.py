@@ -95,12 +95,7 @@ def look_from(scene: Scene, kind: str) -> None:
 
 
 def still(
-    scene: Scene,
-    *,
-    title: str | None = None,
-    width: float = WIDTH,
-    height: float | None = None,
-    fit: bool = False,
+    scene: Scene, *, title: str | None = None, width: float = WIDTH, height: float | None = None, fit: bool = False
 ) -> Picture:
     """Return a picture of a scene from its current view; with `fit`, of everything from above."""
     layers = scene.update()
@@ -109,9 +104,7 @@ def still(
     return Picture(svg, text=words(scene, layers, title), alt=alt, caption=title)
 
 
-def turnable(
-    scene: Scene, *, title: str | None = None, height: float | None = None, fit: bool = False
-) -> RvizView:
+def turnable(scene: Scene, *, title: str | None = None, height: float | None = None, fit: bool = False) -> RvizView:
     """Return a scene in three dimensions, which the reader can turn. Its image is the still picture."""
     layers = scene.update()
     svg = _drawn(scene, layers, title, WIDTH, height, fit=fit)
@@ -160,9 +153,7 @@ def _drawn(
     shown = [each for layer in layers for each in layer.primitives]
     panes = [each for layer in layers for each in layer.panes]
     alt = alt_text(scene, layers)
-    return draw(
-        shown, projection, scene.options["Background Color"], title=title or "RViz", alt=alt, panes=panes
-    )
+    return draw(shown, projection, scene.options["Background Color"], title=title or "RViz", alt=alt, panes=panes)
 
 
 def flat_projection(

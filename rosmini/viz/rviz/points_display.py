@@ -20,12 +20,8 @@ TRANSFORMERS = ("", "Intensity", "RGB8", "MONO8", "RGBF32", "FlatColor", "AxisCo
 
 POINT_PROPERTIES: tuple[Property, ...] = (
     Property("Style", "Flat Squares", "how a point is drawn", choices=STYLES),
-    Property(
-        "Size (m)", 0.01, "size of a point, except in the style Points", unit="m", minimum=0.0001, maximum=1e4
-    ),
-    Property(
-        "Size (Pixels)", 3.0, "size of a point in the style Points", unit="px", minimum=1.0, maximum=100.0
-    ),
+    Property("Size (m)", 0.01, "size of a point, except in the style Points", unit="m", minimum=0.0001, maximum=1e4),
+    Property("Size (Pixels)", 3.0, "size of a point in the style Points", unit="px", minimum=1.0, maximum=100.0),
     Property("Alpha", 1.0, "opacity", minimum=0.0, maximum=1.0),
     Property("Decay Time", 0.0, "time that points stay; 0 for the last message only", unit="s", minimum=0.0),
     Property("Selectable", True, "whether points can be selected"),
@@ -60,9 +56,7 @@ def rainbow(values: Floats) -> Floats:
     return np.stack([np.choose(at, [each[k] for each in choices]) for k in range(3)], axis=1)
 
 
-def styled(
-    points: Floats, properties: Any, channels: Mapping[str, Floats], local: Floats | None = None
-) -> Points:
+def styled(points: Floats, properties: Any, channels: Mapping[str, Floats], local: Floats | None = None) -> Points:
     """Return points (n, 3) of the fixed frame, all finite, in the style of a display's properties.
 
     Args:
@@ -82,15 +76,9 @@ def styled(
         axis = "XYZ".index(properties["Axis"])
         values = (points if properties["Use Fixed Frame"] or local is None else local)[:, axis]
         group = "Autocompute Value Bounds"
-        bounds = (
-            None
-            if properties[group]
-            else (properties[f"{group}/Min Value"], properties[f"{group}/Max Value"])
-        )
+        bounds = None if properties[group] else (properties[f"{group}/Min Value"], properties[f"{group}/Max Value"])
         colours[:, :3] = rainbow(1.0 - _share(values, bounds))
-    elif (
-        kind in ("Intensity", "") and (channel := _channel(properties["Channel Name"], channels)) is not None
-    ):
+    elif kind in ("Intensity", "") and (channel := _channel(properties["Channel Name"], channels)) is not None:
         auto = properties["Autocompute Intensity Bounds"]
         bounds = None if auto else (properties["Min Intensity"], properties["Max Intensity"])
         share = _share(channel, bounds)

@@ -62,15 +62,11 @@ def pose_shape(pose: Floats, display: Any, prefix: str = "") -> Iterator[Primiti
     if display["Shape"] == "Axes":
         yield from axes(pose, display[f"{prefix}Axes Length"], display[f"{prefix}Axes Radius"])
         return
-    sizes = (
-        display[f"{prefix}{name}"] for name in ("Shaft Length", "Shaft Radius", "Head Length", "Head Radius")
-    )
+    sizes = (display[f"{prefix}{name}"] for name in ("Shaft Length", "Shaft Radius", "Head Length", "Head Radius"))
     yield arrow(pose, display[f"{prefix}Color"].rgba(display[f"{prefix}Alpha"]), *sizes)
 
 
-def covariance_shape(
-    pose: Floats, covariance: ArrayLike, display: Any, received: Received
-) -> Iterator[Primitive]:
+def covariance_shape(pose: Floats, covariance: ArrayLike, display: Any, received: Received) -> Iterator[Primitive]:
     """Draw the covariance (36) of x, y, z and rotations about x, y, z at a pose: an ellipsoid and a sector of yaws.
 
     Raises:

@@ -172,9 +172,7 @@ class Texture:
         if pixels.ndim != 3 or pixels.shape[2] != 4 or not pixels.size:
             raise DisplayError(f"pixels must have the shape (h, w, 4), not {pixels.shape}")
         if pixels.shape[0] * pixels.shape[1] > MAX_POINTS:
-            raise DisplayError(
-                f"{pixels.shape[1]} x {pixels.shape[0]} pixels are too many to draw: thin them"
-            )
+            raise DisplayError(f"{pixels.shape[1]} x {pixels.shape[0]} pixels are too many to draw: thin them")
         object.__setattr__(self, "pixels", pixels)
         object.__setattr__(self, "pose", finite(self.pose, 4))
         width, height = (_length(side, "the side of a picture") for side in self.size)

@@ -115,9 +115,7 @@ class Perspective:
         """Return the positions of points (n, 3) in the picture (n, 2) [px]; points behind the eye are far outside."""
         right, up, back = matrix_product(points - self.eye, self.axes.T).T
         away = np.where(back < 0, -back, np.inf)
-        seen = np.column_stack(
-            [self.width / 2 + self._focal * right / away, self.height / 2 - self._focal * up / away]
-        )
+        seen = np.column_stack([self.width / 2 + self._focal * right / away, self.height / 2 - self._focal * up / away])
         return np.where((back < 0)[:, None], snap(seen, self.step) if self.step else seen, NOWHERE)
 
     @property
@@ -198,8 +196,6 @@ def corners(primitive: Primitive) -> Floats:
 
 def _box_of(points: Floats) -> Floats:
     """Return the extreme points along x, y, z and the diagonals, which bound it from every side."""
-    directions = np.array(
-        [(x, y, z) for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1)], dtype=float
-    )
+    directions = np.array([(x, y, z) for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1)], dtype=float)
     found: Floats = points[np.argmax(matrix_product(points, directions.T), axis=0)]
     return found

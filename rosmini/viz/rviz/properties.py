@@ -178,9 +178,7 @@ class Properties:
             node = whole
             for part in above:
                 there = node.get(part)
-                node[part] = node = (
-                    there if isinstance(there, dict) else {} if there is None else {"Value": there}
-                )
+                node[part] = node = there if isinstance(there, dict) else {} if there is None else {"Value": there}
             written = declared.written(self._values[name])
             is_group = any(other.startswith(f"{name}/") for other in self.declared)
             if is_group or (isinstance(node.get(last), dict) and not isinstance(written, dict)):
@@ -204,9 +202,7 @@ class Properties:
 _MISSING = object()
 
 
-def _paths(
-    tree: Mapping[str, Any], above: str, groups: set[str], declared: Mapping[str, Property]
-) -> Iterator[str]:
+def _paths(tree: Mapping[str, Any], above: str, groups: set[str], declared: Mapping[str, Property]) -> Iterator[str]:
     for key, value in tree.items():
         path = f"{above}{key}"
         if path in groups and isinstance(value, Mapping):

@@ -46,9 +46,7 @@ def on_axis(ray: Ray, point: Floats, axis: Floats) -> Floats | None:
     if 1 - slant * slant < _PARALLEL:
         return None
     to = start - point
-    found: Floats = (
-        point + (scalar_product(to, axis) - slant * scalar_product(to, ahead)) / (1 - slant * slant) * axis
-    )
+    found: Floats = point + (scalar_product(to, axis) - slant * scalar_product(to, ahead)) / (1 - slant * slant) * axis
     return found
 
 

@@ -153,11 +153,7 @@ class Scene:
         if frame in tree:
             return (Status(Level.OK, "Fixed Frame", "OK"),)
         if not list(tree):
-            return (
-                Status(
-                    Level.WARN, "Fixed Frame", f"No tf data. Actual error: Frame [{frame}] does not exist"
-                ),
-            )
+            return (Status(Level.WARN, "Fixed Frame", f"No tf data. Actual error: Frame [{frame}] does not exist"),)
         hint = nearest(frame, tree) or f"the frames are: {', '.join(sorted(tree)[:12])}"
         return (Status(Level.ERROR, "Fixed Frame", f"Unknown frame {frame}; {hint}"),)
 

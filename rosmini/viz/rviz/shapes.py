@@ -28,17 +28,10 @@ _ALONG_Y = np.array([[0.0, 1, 0, 0], [0, 0, 1, 0], [1, 0, 0, 0], [0, 0, 0, 1]])
 
 
 def arrow(
-    pose: Floats,
-    colour: Floats,
-    shaft_length: float,
-    shaft_radius: float,
-    head_length: float,
-    head_radius: float,
+    pose: Floats, colour: Floats, shaft_length: float, shaft_radius: float, head_length: float, head_radius: float
 ) -> Mesh:
     """Return an arrow along x from the origin of `pose` (4, 4); lengths and radii in metres."""
-    found = _arrow(
-        *(round(float(each), 6) for each in (shaft_length, shaft_radius, head_length, head_radius))
-    )
+    found = _arrow(*(round(float(each), 6) for each in (shaft_length, shaft_radius, head_length, head_radius)))
     return Mesh(found.vertices, found.faces, colour, pose)
 
 

@@ -143,16 +143,12 @@ class Drawing:
             vertices, faces = _ribbons(segments, lines.width)
             paint = np.repeat(colours[:, :3], 4, axis=0)
             material = geometry.MeshBasicMaterial(vertexColors=True, **see_through)
-            self._put(
-                path, geometry.TriangularMeshGeometry(rounded(vertices), faces, rounded(paint)), material
-            )
+            self._put(path, geometry.TriangularMeshGeometry(rounded(vertices), faces, rounded(paint)), material)
             return
         points = rounded(segments.reshape(-1, 3)).T.astype(np.float32)
         paint = rounded(np.repeat(colours[:, :3], 2, axis=0)).T.astype(np.float32)
         material = geometry.LineBasicMaterial(vertexColors=True, **see_through)
-        self.scene.visualizer[path].set_object(
-            geometry.LineSegments(geometry.PointsGeometry(points, paint), material)
-        )
+        self.scene.visualizer[path].set_object(geometry.LineSegments(geometry.PointsGeometry(points, paint), material))
 
     def _points(self, points: Points, path: str) -> None:
         step = -(-len(points.points) // MAX_POINTS)

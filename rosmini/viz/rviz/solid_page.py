@@ -79,9 +79,7 @@ class SolidPage:
             return None
         return {"type": "solid", "whole": whole, **changed}, commands
 
-    def _state(
-        self, scene: Scene, layers: Sequence[Layer], tool: Tool, size: tuple[float, float]
-    ) -> dict[str, Any]:
+    def _state(self, scene: Scene, layers: Sequence[Layer], tool: Tool, size: tuple[float, float]) -> dict[str, Any]:
         view = scene.view
         camera: list[float] = []
         distance = 1.0
@@ -90,13 +88,7 @@ class SolidPage:
             distance = viewpoint.distance
             camera = [
                 round(float(each), 5)
-                for each in (
-                    *viewpoint.target,
-                    viewpoint.yaw,
-                    viewpoint.pitch,
-                    distance,
-                    viewpoint.field_of_view,
-                )
+                for each in (*viewpoint.target, viewpoint.yaw, viewpoint.pitch, distance, viewpoint.field_of_view)
             ]
         words = [each for layer in layers for each in texts(layer.primitives)]
         step = Camera((0.0, 0.0, 0.0), 2.0 ** round(math.log2(max(distance, 0.05))))

@@ -67,9 +67,7 @@ class Suggestions:
         trees = {(each["Class"], each["Name"]): each for each in config.mappings("Displays")}
         new = [display_from(tree) for name, tree in trees.items() if name not in self._seen]
         self._seen |= trees.keys()
-        added = [
-            each for each in new if self._shows(each) not in there and len(scene.displays) < MAX_DISPLAYS
-        ]
+        added = [each for each in new if self._shows(each) not in there and len(scene.displays) < MAX_DISPLAYS]
         for each in added:
             scene.add(each)
         scene.displays.sort(key=lambda each: each.plugin_name not in GROUND)
@@ -101,11 +99,7 @@ def suggested(graph: Graph, fixed_frame: str | None = None, *, apart_from: str =
         if topic not in published or len(displays) >= MAX_DISPLAYS:
             continue
         single = topic.removesuffix("_array")
-        if (
-            kind.endswith("/MarkerArray")
-            and single != topic
-            and types.get(single) == "visualization_msgs/Marker"
-        ):
+        if kind.endswith("/MarkerArray") and single != topic and types.get(single) == "visualization_msgs/Marker":
             continue  # the display of single markers also receives them
         if kind in kinds:
             displays.append(_display(kinds[kind], topic))

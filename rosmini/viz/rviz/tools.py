@@ -344,9 +344,7 @@ class Interact(MoveCamera, plugin="rviz/Interact"):
 
     label, key = "Interact", "i"
     hint = "Click an interactive marker, or drag to move the camera."
-    properties = (
-        Property("Hide Inactive Objects", True, "hide the controls of other markers during a drag"),
-    )
+    properties = (Property("Hide Inactive Objects", True, "hide the controls of other markers during a drag"),)
     _marker: InteractiveMarkers | None = None
 
     def press(self, at: Floats) -> str:

@@ -40,9 +40,7 @@ class Received:
         header = getattr(message, "header", None)
         self.frame = "" if header is None else str(header.frame_id)
         self.stamp_ns = 0 if header is None else header.stamp.to_nsec()
-        self.sender = str(
-            (getattr(message, "_connection_header", None) or {}).get("callerid", "unknown_publisher")
-        )
+        self.sender = str((getattr(message, "_connection_header", None) or {}).get("callerid", "unknown_publisher"))
         self.place: Rigid = IDENTITY
         """The pose of the message's frame in the fixed frame."""
         self.notes: list[str] = []
@@ -101,11 +99,7 @@ class TopicDisplay(Display):
     properties: ClassVar[tuple[Property, ...]] = (
         Property("Topic", "", "the topic to subscribe to"),
         Property(
-            "Queue Size",
-            10,
-            "maximum number of messages that wait for their transform",
-            minimum=1,
-            maximum=MAX_WAITING,
+            "Queue Size", 10, "maximum number of messages that wait for their transform", minimum=1, maximum=MAX_WAITING
         ),
         Property("Unreliable", False, "prefer UDP; not supported"),
     )

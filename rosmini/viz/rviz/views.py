@@ -31,21 +31,12 @@ FIELD_OF_VIEW = 45.0
 
 _TARGET = Property("Target Frame", FIXED_FRAME, "the frame that the camera goes with")
 _FOCUS = (
-    Property(
-        "Distance", 10.0, "distance of the camera from the focal point", unit="m", minimum=0.01, maximum=1e6
-    ),
+    Property("Distance", 10.0, "distance of the camera from the focal point", unit="m", minimum=0.01, maximum=1e6),
     Property("Focal Point", Vector(0.0, 0.0, 0.0), "target of the camera, in the target frame", unit="m"),
     Property("Yaw", math.pi / 4, "direction of the camera", unit="rad"),
+    Property("Pitch", math.pi / 4, "elevation of the camera", unit="rad", minimum=-STEEPEST, maximum=STEEPEST),
     Property(
-        "Pitch", math.pi / 4, "elevation of the camera", unit="rad", minimum=-STEEPEST, maximum=STEEPEST
-    ),
-    Property(
-        "Field of View",
-        math.radians(FIELD_OF_VIEW),
-        "vertical field of view",
-        unit="rad",
-        minimum=0.01,
-        maximum=3.0,
+        "Field of View", math.radians(FIELD_OF_VIEW), "vertical field of view", unit="rad", minimum=0.01, maximum=3.0
     ),
 )
 
@@ -87,12 +78,7 @@ class ViewController(Plugin):
     def tree(self) -> dict[str, Any]:
         """Return its part of a file."""
         name = self.plugin_name.rpartition("/")[2]
-        return {
-            **self._values.tree(),
-            "Class": self.plugin_name,
-            "Name": "Current View",
-            "Value": f"{name} (rviz)",
-        }
+        return {**self._values.tree(), "Class": self.plugin_name, "Name": "Current View", "Value": f"{name} (rviz)"}
 
     def viewpoint(self, context: Context) -> Viewpoint:
         """Return the current viewpoint. An unknown target frame is replaced by the fixed frame."""

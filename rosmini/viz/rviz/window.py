@@ -25,15 +25,7 @@ from rosmini.viz.rviz.projection import ParallelProjection, Perspective
 from rosmini.viz.rviz.selection import Picked, hit, picked
 from rosmini.viz.rviz.suggestions import Suggestions, suggested
 from rosmini.viz.rviz.tools import Select, Tools
-from rosmini.viz.rviz.views import (
-    PIXELS,
-    Orbit,
-    ThirdPersonFollower,
-    TopDownOrtho,
-    ViewController,
-    XYOrbit,
-    view_like,
-)
+from rosmini.viz.rviz.views import PIXELS, Orbit, ThirdPersonFollower, TopDownOrtho, ViewController, XYOrbit, view_like
 from rosmini.viz.view import ViewError
 
 from .solid_page import HOST, NUMBERS, SCRIPTS, SolidPage, is_possible, turn
@@ -143,9 +135,7 @@ class RVizWindow(Panel):
                 Control("reset", "Reset", "button"),
             ),
             Words(
-                "; ".join(
-                    f"Global Status: {level}: {each.name}: {each.text}" for each in self.scene.global_status
-                ),
+                "; ".join(f"Global Status: {level}: {each.name}: {each.text}" for each in self.scene.global_status),
                 is_bad=level is Level.ERROR,
             ),
             Rows(("Display", "on", "Status"), tuple(self._rows(self.scene.displays, 0)), "Displays"),
@@ -199,12 +189,7 @@ class RVizWindow(Panel):
         """Return what the current tool draws."""
         tool, projection = self.tools.current, self._projection
         found = list(tool.primitives())
-        if (
-            isinstance(tool, Select)
-            and tool.corners is not None
-            and self._is_pressed
-            and projection is not None
-        ):
+        if isinstance(tool, Select) and tool.corners is not None and self._is_pressed and projection is not None:
             found.append(_rectangle(*tool.corners, projection))
         return found
 
@@ -362,9 +347,7 @@ class RVizWindow(Panel):
     def _press_key(self, key: str) -> None:
         """Select a tool by its key, move the pointer by arrow keys, press and release by Enter."""
         if key in ARROWS:
-            self._pointer = np.clip(
-                self._pointer + STEP * 0.1 * self._size[1] * np.array(ARROWS[key]), 0, self._size
-            )
+            self._pointer = np.clip(self._pointer + STEP * 0.1 * self._size[1] * np.array(ARROWS[key]), 0, self._size)
             if self._is_pressed:
                 self._use("move")
             else:
@@ -398,7 +381,5 @@ def _title(name: str) -> str:
     return f"{kind} ({package})"
 
 
-TYPES = {
-    _title(kind.plugin_name): kind.plugin_name for kind in (Orbit, ThirdPersonFollower, TopDownOrtho, XYOrbit)
-}
+TYPES = {_title(kind.plugin_name): kind.plugin_name for kind in (Orbit, ThirdPersonFollower, TopDownOrtho, XYOrbit)}
 """The available kinds of view."""

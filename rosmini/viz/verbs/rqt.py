@@ -45,13 +45,9 @@ for _plugin in plugins():
 
 def _plugins_parser() -> Parser:
     parser = Parser(
-        "rqt",
-        "rosmini rqt plugins",
-        "The plugins of the real rqt in their nine groups, and what serves here.",
+        "rqt", "rosmini rqt plugins", "The plugins of the real rqt in their nine groups, and what serves here."
     )
-    parser.add_option(
-        "-o", "--output", metavar="FILE", help="write the page (or .txt) there, and open nothing"
-    )
+    parser.add_option("-o", "--output", metavar="FILE", help="write the page (or .txt) there, and open nothing")
     return parser
 
 

@@ -40,14 +40,10 @@ def _parser() -> Parser:
     parser.flag("--still", help="a picture that cannot be turned")
     parser.flag("--fit", help="from above and around everything, whatever the view of the file is")
     parser.add_option(
-        "--view",
-        metavar="KIND",
-        help="from a view of this kind around everything: Orbit (from the side), TopDownOrtho",
+        "--view", metavar="KIND", help="from a view of this kind around everything: Orbit (from the side), TopDownOrtho"
     )
     parser.add_option("--title", metavar="TEXT", help="a caption under the picture")
-    parser.add_option(
-        "-o", "--output", metavar="FILE", help="write the page (or .svg, .txt) there, and open nothing"
-    )
+    parser.add_option("-o", "--output", metavar="FILE", help="write the page (or .svg, .txt) there, and open nothing")
     return parser
 
 
@@ -58,9 +54,7 @@ def show(given: Values, call: Call) -> Result:
     from rosmini.viz.rviz.suggestions import suggested
 
     if given.words:
-        _parser().error(
-            f"rviz takes no words but options, not {given.words[0]!r}; a file is given by -d FILE"
-        )
+        _parser().error(f"rviz takes no words but options, not {given.words[0]!r}; a file is given by -d FILE")
     config, graph = given.display_config, call.graph
     is_still = given.still or given.view or given.output or given.title or given.duration is not None
     if given.live or (call.in_terminal and not is_still):

@@ -84,11 +84,7 @@ def table(figures: Iterable[Figure]) -> str:
             (
                 f"{figure.name} [{figure.unit}]",
                 f"{figure.ours:,.3g}" if figure.ours < 100 else f"{figure.ours:,.0f}",
-                "-"
-                if figure.peer is None
-                else f"{figure.peer:,.3g}"
-                if figure.peer < 100
-                else f"{figure.peer:,.0f}",
+                "-" if figure.peer is None else f"{figure.peer:,.3g}" if figure.peer < 100 else f"{figure.peer:,.0f}",
                 "" if figure.peer is None else figure.peer_name,
                 "-" if ratio is None else f"{ratio:.1f}",
             )
@@ -119,11 +115,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--rounds", type=int, default=3, metavar="N", help="rounds of which the median is shown (default: 3)"
     )
     parser.add_argument(
-        "--scale",
-        type=float,
-        default=1.0,
-        metavar="F",
-        help="do F times the usual work in a round (default: 1)",
+        "--scale", type=float, default=1.0, metavar="F", help="do F times the usual work in a round (default: 1)"
     )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures to FILE, too")
     parser.add_argument("--seed", type=int, default=1, metavar="N", help="of the goals of nav (default: 1)")
@@ -146,15 +138,9 @@ def main(args: argparse.Namespace) -> int:
     print()
     print(table(figures))
     if args.json is not None:
-        machine = {
-            "machine": platform.machine(),
-            "system": platform.system(),
-            "python": platform.python_version(),
-        }
+        machine = {"machine": platform.machine(), "system": platform.system(), "python": platform.python_version()}
         rows = [{**asdict(figure), "ratio": figure.ratio} for figure in figures]
-        args.json.write_text(
-            json.dumps({"machine": machine, "figures": rows}, indent=2) + "\n", encoding="utf-8"
-        )
+        args.json.write_text(json.dumps({"machine": machine, "figures": rows}, indent=2) + "\n", encoding="utf-8")
         print(f"written to {args.json}")
     if args.subject == "nav":
         from . import nav_explore, nav_located, nav_quality, nav_study

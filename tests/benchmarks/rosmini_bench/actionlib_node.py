@@ -13,13 +13,7 @@ from typing import Any
 
 import actionlib  # type: ignore[import-not-found,import-untyped,unused-ignore]  # the system Python has it
 import rospy  # type: ignore[import-not-found]
-from actionlib.msg import (  # type: ignore[import-not-found,import-untyped,unused-ignore]
-    TestAction,
-    TestActionFeedback,
-    TestFeedback,
-    TestGoal,
-    TestResult,
-)
+from actionlib.msg import TestAction, TestActionFeedback, TestFeedback, TestGoal, TestResult  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
 
 def serve(count: int) -> None:
@@ -45,13 +39,9 @@ def ask(count: int) -> float:
     client = actionlib.ActionClient("bench", TestAction)
     told: list[int] = []
     # Heard on the topic: the client drops feedback that comes after its result, which with real threads it often does.
-    rospy.Subscriber(
-        "bench/feedback", TestActionFeedback, lambda message: told.append(message.feedback.feedback)
-    )
+    rospy.Subscriber("bench/feedback", TestActionFeedback, lambda message: told.append(message.feedback.feedback))
     client.wait_for_server()
-    while (
-        not told
-    ):  # a real server answers a subscriber before it sends to it: what it says in between is lost
+    while not told:  # a real server answers a subscriber before it sends to it: what it says in between is lost
         handle = client.send_goal(TestGoal(-1), lambda _: None, lambda *_: None)
         deadline = time.time() + 1
         while not told and time.time() < deadline:

@@ -25,8 +25,7 @@ def goals(count: int) -> float:
     """Return goals a second: each is sent, accepted, told of with feedback, and succeeds, before the next is sent."""
     graph = Graph(simulated=False)
     action, result, feedback, goal = (
-        message_class(f"actionlib/{name}")
-        for name in ("TestAction", "TestResult", "TestFeedback", "TestGoal")
+        message_class(f"actionlib/{name}") for name in ("TestAction", "TestResult", "TestFeedback", "TestGoal")
     )
     told: list[int] = []
 
@@ -72,9 +71,5 @@ def measures(rospy: Rospy | None, scale: float) -> Iterator[Measure]:
 
         peer = measure
     yield Measure(
-        "action goals, one after the other, each with feedback",
-        "goals/s",
-        lambda: goals(count),
-        peer,
-        "actionlib",
+        "action goals, one after the other, each with feedback", "goals/s", lambda: goals(count), peer, "actionlib"
     )

@@ -33,12 +33,8 @@ def message(kind: str) -> Any:
     if kind == "string":
         return message_class("std_msgs/String")("x" * 100)
     if kind == "scan":
-        return message_class("sensor_msgs/LaserScan")(
-            ranges=[0.25 * i for i in range(360)], intensities=[1.0] * 360
-        )
-    return message_class("sensor_msgs/Image")(
-        height=1000, width=1000, encoding="mono8", step=1000, data=PIXELS
-    )
+        return message_class("sensor_msgs/LaserScan")(ranges=[0.25 * i for i in range(360)], intensities=[1.0] * 360)
+    return message_class("sensor_msgs/Image")(height=1000, width=1000, encoding="mono8", step=1000, data=PIXELS)
 
 
 def digest(kind: str, received: Any) -> int:
@@ -69,9 +65,7 @@ def read(path: Path, kind: str, count: int) -> float:
             total += digest(kind, received)
     seconds = time.perf_counter() - begin
     if total != count * digest(kind, message(kind)):
-        raise RosminiError(
-            f"what was read of {count} messages ({kind}) is not what was written: there is no figure"
-        )
+        raise RosminiError(f"what was read of {count} messages ({kind}) is not what was written: there is no figure")
     return count / seconds
 
 
@@ -80,9 +74,7 @@ def recorded(folder: Path, hertz: int, seconds: float) -> float:
     graph = Graph(simulated=False)
     talker = graph.node("talker")
     publisher = talker.publisher("bench", message_class("std_msgs/String"), queue_size=None)
-    recorder = Recorder(
-        graph.node("record"), topics=["/bench"], output_name=str(folder / "record"), quiet=True
-    )
+    recorder = Recorder(graph.node("record"), topics=["/bench"], output_name=str(folder / "record"), quiet=True)
     publisher.wait_for_subscribers()
     count = int(hertz * seconds)
 
@@ -166,7 +158,5 @@ def measures(folder: Path, peer: Peer | None, scale: float) -> Iterator[Measure]
                 "rosbag",
             )
     yield Measure(
-        "bag: recorded of 10,000 messages/s, in wall time",
-        "%",
-        lambda: recorded(folder, 10_000, max(0.1, 2.0 * scale)),
+        "bag: recorded of 10,000 messages/s, in wall time", "%", lambda: recorded(folder, 10_000, max(0.1, 2.0 * scale))
     )

@@ -183,8 +183,6 @@ def measures(scale: float) -> Iterator[Measure]:
         count = max(int(5 * scale), 1)
         name = f"rviz {subject.kind}, {subject.what}"
         for form, draw in (("still", still), ("3D", turnable)):
-            yield Measure(
-                f"{name}: {form}", "ms of CPU", partial(spent_ms, subject, draw, count), more_is_better=False
-            )
+            yield Measure(f"{name}: {form}", "ms of CPU", partial(spent_ms, subject, draw, count), more_is_better=False)
             weigh = partial(weight_kb, subject, turn=form == "3D")
             yield Measure(f"{name}: {form}", "kB", weigh, more_is_better=False, once=True)

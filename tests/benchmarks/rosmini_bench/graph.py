@@ -171,10 +171,7 @@ def measures(rospy: Rospy | None, scale: float) -> Iterator[Measure]:
         peer("string_throughput", strings),
     )
     yield Measure(
-        "the same, each received before the next is sent",
-        "messages/s",
-        lambda: string_throughput(strings, 1),
-        None,
+        "the same, each received before the next is sent", "messages/s", lambda: string_throughput(strings, 1), None
     )
     yield Measure(
         "the same in bursts of 100, while the graph records",

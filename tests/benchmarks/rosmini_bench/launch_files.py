@@ -22,10 +22,7 @@ if TYPE_CHECKING:
 NODE = Path(__file__).with_name("launch_node.py")
 FILES = Path(__file__).parents[2] / "ros" / "launch" / "data" / "shapes"
 
-SUBJECTS = {
-    "navigation.launch": "5 files, 5 nodes, a xacro",
-    "slam.launch": "2 files, 2 nodes",
-}
+SUBJECTS = {"navigation.launch": "5 files, 5 nodes, a xacro", "slam.launch": "2 files, 2 nodes"}
 
 
 def plan_of(name: str) -> Plan:
@@ -46,9 +43,7 @@ def real_ms(python: str, name: str, count: int) -> float:
     """Return the same of real roslaunch. Raises ``RosminiError`` if it reads something else than ours."""
     environment = {
         **os.environ,
-        "PATH": os.pathsep.join(
-            [str(Path(sys.executable).parent), os.environ["PATH"]]
-        ),  # our xacro is its, too
+        "PATH": os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]]),  # our xacro is its, too
         "ROS_PACKAGE_PATH": str(assets_dir() / "ros"),
     }
     environment.pop("TURTLEBOT3_MODEL", None)

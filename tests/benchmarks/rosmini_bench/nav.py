@@ -54,8 +54,5 @@ def measures(scale: float, seed: int = 1) -> Iterator[Measure]:
     goals = 4 if scale >= 1 else 1
     for name, rates in (("ROBOTIS's rates", ROBOTIS_RATES), ("our file", ())):
         yield Measure(
-            f"whole loop, burger in the house, {name}",
-            "x real time",
-            partial(loop, rates, goals, seed),
-            once=True,
+            f"whole loop, burger in the house, {name}", "x real time", partial(loop, rates, goals, seed), once=True
         )

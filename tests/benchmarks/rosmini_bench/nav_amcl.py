@@ -143,13 +143,7 @@ def follow(one: Drive, p: AmclParameters, seed: int, *, lost: bool = False) -> T
     cpu = time.process_time() - cpu
     rate = np.abs(np.gradient(one.truth[:, 2], one.times)) > TURNING
     return Track(
-        one.times,
-        np.array(off),
-        np.array(turned),
-        rate,
-        tuple(inside),
-        np.array(particles),
-        cpu / max(updates, 1),
+        one.times, np.array(off), np.array(turned), rate, tuple(inside), np.array(particles), cpu / max(updates, 1)
     )
 
 
@@ -221,9 +215,7 @@ def measures(scale: float) -> Iterator[Measure]:
     times = 15 if scale >= 1 else 2
     for count, beams in ((500, 60), (2000, 60), (2000, 360), (10_000, 60)) if scale >= 1 else ((200, 60),):
         name = f"amcl, odometry, {beams} beams and resampling of {count} particles"
-        yield Measure(
-            name, "ms of CPU", partial(update_cost, count, beams, times=times), more_is_better=False
-        )
+        yield Measure(name, "ms of CPU", partial(update_cost, count, beams, times=times), more_is_better=False)
     count = 2000 if scale >= 1 else 200
     name = f"amcl, the same of {count} particles, 60 beams, beam model"
     yield Measure(name, "ms of CPU", partial(update_cost, count, 60, "beam", times), more_is_better=False)

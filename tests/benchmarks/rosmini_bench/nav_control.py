@@ -17,10 +17,7 @@ from numpy.typing import NDArray
 from rosmini.core.geometry.angles import shortest_angular_distance
 from rosmini.core.geometry.poses import Pose, compose, inverse
 from rosmini.navigation.base_local_planner.trajectory import Samples
-from rosmini.navigation.base_local_planner.trajectory_planner import (
-    TrajectoryPlanner,
-    TrajectoryPlannerParameters,
-)
+from rosmini.navigation.base_local_planner.trajectory_planner import TrajectoryPlanner, TrajectoryPlannerParameters
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
 from rosmini.navigation.dwa_local_planner.dwa_planner import DWAPlanner, DWAPlannerParameters
 from rosmini.sim.engine import Engine
@@ -166,9 +163,7 @@ def predicted(
     return samples.trajectory(0)
 
 
-def miss(
-    command: tuple[float, float], before: tuple[float, float], acceleration: float, *, window: bool
-) -> Miss:
+def miss(command: tuple[float, float], before: tuple[float, float], acceleration: float, *, window: bool) -> Miss:
     """Compare the two at the last predicted point."""
     track = predicted(command, before, acceleration, window=window)
     after = 1.5 * (len(track) - 1) / len(track)

@@ -131,9 +131,7 @@ def table(found: Iterable[Crossing]) -> Iterator[str]:
     """One line of Markdown for each number of robots."""
     yield "| robots | runs | reached | 95 % | contacts charged | the last after | x real | failures |"
     yield "|---|---|---|---|---|---|---|---|"
-    for robots, group in groupby(
-        sorted(found, key=lambda one: (one.robots, one.seed)), lambda one: one.robots
-    ):
+    for robots, group in groupby(sorted(found, key=lambda one: (one.robots, one.seed)), lambda one: one.robots):
         runs = list(group)
         reached = sum(one.reached for one in runs)
         low, high = wilson(reached, robots * len(runs))

@@ -75,13 +75,7 @@ class _Driver:
     """Drives from one place to the next, and looks at the truth."""
 
     def __init__(
-        self,
-        graph: Graph,
-        world: str,
-        simulator: Simulator,
-        random: np.random.Generator,
-        turn: float,
-        rest: float,
+        self, graph: Graph, world: str, simulator: Simulator, random: np.random.Generator, turn: float, rest: float
     ) -> None:
         self.terrain, self.places = terrain(world)
         self.simulator, self.random, self.turn, self.rest = simulator, random, turn, rest
@@ -122,15 +116,10 @@ class _Driver:
             found = self.terrain.shortest(start, (row, column))
             if found is not None and len(found) > 1:
                 return found[1:]
-        return [
-            here[0:2],
-            (here[0] + float(self.random.uniform(-1, 1)), here[1] + float(self.random.uniform(-1, 1))),
-        ]
+        return [here[0:2], (here[0] + float(self.random.uniform(-1, 1)), here[1] + float(self.random.uniform(-1, 1)))]
 
 
-def drive(
-    world: str, seed: int, seconds: float, *, turn: float = TURN, sweep: bool = True, rest: float = 0.0
-) -> Drive:
+def drive(world: str, seed: int, seconds: float, *, turn: float = TURN, sweep: bool = True, rest: float = 0.0) -> Drive:
     """Drive a burger around in a world from a start at random; a seed gives the same drive again.
 
     `turn` is the fastest turn [rad/s]; without `sweep` a scan's beams are measured all at once. The robot stands still
@@ -190,9 +179,7 @@ def kidnapped(before: Drive, after: Drive, when: float) -> Drive:
     carried = compose(tuple(last), compose(inverse(tuple(after.odometry[0])), after.odometry))
     return replace(
         before,
-        times=np.concatenate(
-            [before.times[first], after.times - after.times[0] + before.times[first][-1] + 0.2]
-        ),
+        times=np.concatenate([before.times[first], after.times - after.times[0] + before.times[first][-1] + 0.2]),
         odometry=np.concatenate([before.odometry[first], carried]),
         truth=np.concatenate([before.truth[first], after.truth]),
         ranges=np.concatenate([before.ranges[first], after.ranges]),

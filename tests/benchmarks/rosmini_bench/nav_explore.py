@@ -108,12 +108,9 @@ def explore(world: str, method: str, seed: int, longest: float = LONGEST, *, wit
 def _explore(graph: Graph, world: str, method: str, seed: int, longest: float, without: str) -> Explored:
     grid, file, _ = place(world)
     settings = "".join(
-        f'<param name="/turtlebot3_slam_gmapping/{name}" value="{value}"/>'
-        for name, value in SETTINGS.items()
+        f'<param name="/turtlebot3_slam_gmapping/{name}" value="{value}"/>' for name, value in SETTINGS.items()
     )
-    text = LAUNCH.format(
-        world=world, method=method, file=FILES[method], arguments=ARGUMENTS[method], settings=settings
-    )
+    text = LAUNCH.format(world=world, method=method, file=FILES[method], arguments=ARGUMENTS[method], settings=settings)
     launch_file = file.parent / f"explore_{method}_{seed}.launch"
     launch_file.write_text(text, encoding="utf-8")
     cpu, begin = time.process_time(), graph.scheduler.now_ns()
@@ -129,9 +126,7 @@ def _explore(graph: Graph, world: str, method: str, seed: int, longest: float, w
 
     node.subscriber("/rosout", message_class("rosgraph_msgs/Log"), read)
     node.subscriber("/move_base/goal", message_class("move_base_msgs/MoveBaseActionGoal"), goals.append)
-    node.subscriber(
-        "/map", message_class("nav_msgs/OccupancyGrid"), lambda each: maps.__setitem__(slice(None), [each])
-    )
+    node.subscriber("/map", message_class("nav_msgs/OccupancyGrid"), lambda each: maps.__setitem__(slice(None), [each]))
     graph.run(3.0)
     simulator = graph.nodes["/simulator"].program
     remove_obstacle(simulator.engine, without)
@@ -204,8 +199,7 @@ def table(found: Iterable[tuple[Explored, str]]) -> Iterator[str]:
         low, high = wilson(ended, len(runs))
         faster = sum(one.seconds for one in runs) / max(sum(one.cpu for one in runs), 1e-9)
         seen, seconds, driven, goals = (
-            statistics.median(getattr(one, name) for one in runs)
-            for name in ("share", "seconds", "driven", "goals")
+            statistics.median(getattr(one, name) for one in runs) for name in ("share", "seconds", "driven", "goals")
         )
         yield (
             f"| {world} | {method} | {ended} of {len(runs)} | {low:.0%} to {high:.0%} | "

@@ -82,9 +82,7 @@ def house() -> Log | None:
     ranges[log["ranges_mm"] == 0] = math.inf
     ranges[log["ranges_mm"] == 65535] = 0.0
     shape = tuple(log["grid_shape"])
-    cells = [
-        np.unpackbits(log[name])[: math.prod(shape)].reshape(shape) > 0 for name in ("surface", "visible")
-    ]
+    cells = [np.unpackbits(log[name])[: math.prod(shape)].reshape(shape) > 0 for name in ("surface", "visible")]
     walls = Walls(cells[0], cells[1], float(log["grid_res"]), tuple(log["grid_origin"].tolist()))
     bearings = float(log["angle_min"]) + float(log["angle_increment"]) * np.arange(ranges.shape[1])
     poses = log["odom"].astype(float), log["truth"].astype(float)
@@ -223,9 +221,7 @@ def measures(scale: float) -> Iterator[Measure]:
     full = scale >= 1
     for particles, beams in ((30, 360), (60, 360), (100, 360), (30, 180), (30, 720)) if full else ((3, 60),):
         name = f"gmapping, a scan of {beams} beams, {particles} particles"
-        yield Measure(
-            name, "ms of CPU", partial(scan_cost, particles, beams, 10 if full else 2), more_is_better=False
-        )
+        yield Measure(name, "ms of CPU", partial(scan_cost, particles, beams, 10 if full else 2), more_is_better=False)
     for particles in (30, 100) if full else (3,):
         side = 4000 if full else 200
         name = f"gmapping, maps of {particles} particles, {side} x {side} cells seen"

@@ -183,9 +183,7 @@ def errands(
         room, ends = room & away, ends & away
     places, targets = np.argwhere(room), np.argwhere(ends)
     if not len(places):
-        raise RosminiError(
-            f"a disc of {disc:g} m has no room at {inside}: name a point farther from the walls"
-        )
+        raise RosminiError(f"a disc of {disc:g} m has no room at {inside}: name a point farther from the walls")
     draw = np.random.default_rng([seed, len(places)])
     number = failed = 0
     while number < count:

@@ -26,9 +26,7 @@ Floats = NDArray[np.float64]
 
 LIMITS = Limits(0.12, 3.5)
 """As ROBOTIS's launch file has them."""
-CHOSEN = Settings(
-    map_resolution=0.05, map_size=1024, map_update_distance_thresh=0.2, map_update_angle_thresh=0.2
-)
+CHOSEN = Settings(map_resolution=0.05, map_size=1024, map_update_distance_thresh=0.2, map_update_angle_thresh=0.2)
 """Parameters of our choice for a TurtleBot3."""
 
 

@@ -132,9 +132,7 @@ def hectored(what: str, seed: int) -> Values:
     if what != "log_house":
         speed, _, kind = what.partition(" rad/s, ")
         laser, _, start = kind.partition(", ")
-        one = drive(
-            "house", seed, 120.0, turn=float(speed), sweep=laser == "sweep", rest=0.0 if start else 1.0
-        )
+        one = drive("house", seed, 120.0, turn=float(speed), sweep=laser == "sweep", rest=0.0 if start else 1.0)
     if one is None:
         raise RosminiError(f"log_house is not in {nav_gmapping.DATA}")
     alone, helped = nav_hector.hector(one), nav_hector.hector(one, odometry=True)
@@ -197,9 +195,7 @@ def _table(names: tuple[str, ...], chosen: dict[str, list[Row]]) -> Iterator[str
             times = [v for row in rows if (v := row.values["found [s]"]) is not None]
             low, high = wilson(len(times), len(rows))
             median = f"{statistics.median(times):.0f} s" if times else ""
-            yield (
-                f"| {what} | {len(times)} of {len(rows)} | {low:.0%} to {high:.0%} | {median} | {_told(rows)} |"
-            )
+            yield (f"| {what} | {len(times)} of {len(rows)} | {low:.0%} to {high:.0%} | {median} | {_told(rows)} |")
         return
     yield f"| what | {' | '.join(names)} | seeds | commit |"
     yield "|---|" + "---|" * (len(names) + 2)

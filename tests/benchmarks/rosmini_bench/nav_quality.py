@@ -28,9 +28,7 @@ XY, YAW = 0.10 + 0.02, 0.17 + 0.05
 WORLDS = ("house", "maze", "office")
 GAPS = (1.2, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0)
 TRAJECTORY = (("base_local_planner", "base_local_planner/TrajectoryPlannerROS"),)
-PLANNERS = tuple(
-    (("base_global_planner", name),) for name in ("global_planner/GlobalPlanner", "navfn/NavfnROS")
-)
+PLANNERS = tuple((("base_global_planner", name),) for name in ("global_planner/GlobalPlanner", "navfn/NavfnROS"))
 
 
 @dataclass(frozen=True)

@@ -132,9 +132,7 @@ def _setup(kind: str, rest: str, more: list[str], seed: int) -> Setup:
     if kind == CYLINDERS:
         setup["gap"] = float(rest)
     elif rest or kind not in nav_quality.WORLDS:
-        raise RosminiError(
-            f"{kind}: name one of {', '.join((*nav_quality.WORLDS, CYLINDERS, *nav_explore.FILES))}"
-        )
+        raise RosminiError(f"{kind}: name one of {', '.join((*nav_quality.WORLDS, CYLINDERS, *nav_explore.FILES))}")
     for each in more:
         setup.update(_word(each))
     return Setup(**setup)
@@ -158,9 +156,7 @@ def key(line: Line) -> tuple[Any, int]:
 
 def main() -> None:
     """Drive, and write."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("file", type=Path)
     parser.add_argument("items", nargs="+", metavar="WHAT=FIRST-LAST")
     parser.add_argument("--seed", type=int, default=7, help="of the goals")

@@ -71,9 +71,7 @@ LAUNCH = """
 </launch>
 """
 
-TRAJECTORY = (
-    '<rosparam ns="/move_base" file="$(find turtlebot3_navigation)/param/base_local_planner_params.yaml"/>'
-)
+TRAJECTORY = '<rosparam ns="/move_base" file="$(find turtlebot3_navigation)/param/base_local_planner_params.yaml"/>'
 """Without it this planner takes the robot for one that can step aside."""
 
 
@@ -195,10 +193,7 @@ def across(count: int, seed: int) -> Iterator[Errand]:
     draw = np.random.default_rng(seed)
     for number in range(count):
         side = 1 if number % 2 else -1
-        (ax, bx), (a, b) = (
-            draw.uniform(-SIDE / 2 + 0.5, SIDE / 2 - 0.5, 2),
-            draw.uniform(-math.pi, math.pi, 2),
-        )
+        (ax, bx), (a, b) = (draw.uniform(-SIDE / 2 + 0.5, SIDE / 2 - 0.5, 2), draw.uniform(-math.pi, math.pi, 2))
         y = side * (FOREST / 2 + 0.6)
         start, goal = (float(ax), -y, float(a)), (float(bx), y, float(b))
         way = [start[:2], goal[:2]]
@@ -297,9 +292,7 @@ def _run(graph: Graph, setup: Setup, errand: Errand, file: Path, *, watched: boo
         message_class("move_base_msgs/RecoveryStatus"),
         lambda message: recoveries.append(message.recovery_behavior_name),
     )
-    sender = node.publisher(
-        "/move_base_simple/goal", message_class("geometry_msgs/PoseStamped"), queue_size=1
-    )
+    sender = node.publisher("/move_base_simple/goal", message_class("geometry_msgs/PoseStamped"), queue_size=1)
     graph.run(2.0)  # the first scans and costmaps
     if watched:
         node.timer(LOOK, watch.look)

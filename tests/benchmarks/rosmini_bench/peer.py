@@ -30,10 +30,7 @@ def find_rospy() -> Rospy | None:
     """Return the real rospy with a running roscore, or None where it is not installed."""
     if shutil.which("roscore") is None or not Path(SYSTEM_PYTHON).exists():
         return None
-    if (
-        subprocess.run([SYSTEM_PYTHON, "-c", "import rospy"], capture_output=True, check=False).returncode
-        != 0
-    ):
+    if subprocess.run([SYSTEM_PYTHON, "-c", "import rospy"], capture_output=True, check=False).returncode != 0:
         return None
     return Rospy(SYSTEM_PYTHON)
 
@@ -58,10 +55,7 @@ class Core:
             port = _free_port()
             self.env["ROS_MASTER_URI"] = f"http://127.0.0.1:{port}"
             self._core = subprocess.Popen(
-                [*roscore, "-p", str(port)],
-                env=self.env,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
+                [*roscore, "-p", str(port)], env=self.env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
             )
             if self._answers(port):
                 return

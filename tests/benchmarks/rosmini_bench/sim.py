@@ -50,9 +50,7 @@ def rosmini_scan(backend: str) -> Cast:
 
     def cast(world: World, x: float, y: float) -> NDArray[np.float64]:
         step = 2 * math.pi / lidar.beams
-        return raycast(
-            world.segments, world.discs, x, y, 0.0, step, lidar.beams, lidar.range_max, backend=backend
-        )
+        return raycast(world.segments, world.discs, x, y, 0.0, step, lidar.beams, lidar.range_max, backend=backend)
 
     return cast
 
@@ -64,9 +62,7 @@ def pymunk_scan() -> Cast:
     lidar = BURGER.laser
     world = sim_room.crowded_room()
     space = pymunk.Space()
-    walls = [
-        pymunk.Segment(space.static_body, (x1, y1), (x2, y2), 0) for x1, y1, x2, y2 in world.segments.tolist()
-    ]
+    walls = [pymunk.Segment(space.static_body, (x1, y1), (x2, y2), 0) for x1, y1, x2, y2 in world.segments.tolist()]
     pillars = [pymunk.Circle(space.static_body, radius, (x, y)) for x, y, radius in world.discs.tolist()]
     space.add(*walls, *pillars)
     everything = pymunk.ShapeFilter()
@@ -141,9 +137,7 @@ def measures(irsim: Peer | None, mujoco: Peer | None, scale: float) -> Iterator[
     yield from sim_physics.measures(scale)
 
 
-def _beside(
-    peer: Peer | None, seconds: float, count: int, scale: float
-) -> tuple[Callable[[], float] | None, str]:
+def _beside(peer: Peer | None, seconds: float, count: int, scale: float) -> tuple[Callable[[], float] | None, str]:
     """What a peer does beside us, and its name. A hundred robots take ir-sim too long to be only tried out."""
     if peer is None or (count >= 100 and scale < 0.2):
         return None, "" if peer is None else peer.name

@@ -126,9 +126,7 @@ def check_rate(topic: str, rows: list[Row], rate: float, seconds: float) -> None
     count = len(rows)
     expect(abs(count - rate * seconds) <= 1, f"{count} messages on {topic} in {seconds} s at {rate} Hz")
     gaps = np.diff([row[0] for row in rows])
-    expect(
-        bool((abs(gaps - 1e9 / rate) <= 1).all()), f"the messages on {topic} are not {1 / rate:.4f} s apart"
-    )
+    expect(bool((abs(gaps - 1e9 / rate) <= 1).all()), f"the messages on {topic} are not {1 / rate:.4f} s apart")
 
 
 def check_frames(heard: Heard, model: RobotModel, name: str) -> None:
@@ -155,10 +153,7 @@ def check_odometry(heard: Heard, model: RobotModel) -> None:
     expect([row[:4] for row in heard["odom"]] == [row[:4] for row in heard["tf"]], "odom and tf do not agree")
     rolled = np.diff([(row[3] + row[4]) / 2 for row in heard["joint_states"]]) * model.wheel_radius
     speeds = np.array([row[4] for row in heard["odom"]])[1:]
-    expect(
-        bool(np.allclose(rolled * model.rate, speeds, rtol=0, atol=1e-9)),
-        "odom's speed is not that of the joints",
-    )
+    expect(bool(np.allclose(rolled * model.rate, speeds, rtol=0, atol=1e-9)), "odom's speed is not that of the joints")
 
 
 def first_hit(world: World, x: float, y: float, angle: float) -> float:

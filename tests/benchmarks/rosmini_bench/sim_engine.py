@@ -29,9 +29,7 @@ def rng(name: str) -> np.random.Generator:
     return np.random.default_rng(zlib.crc32(name.encode()))
 
 
-def make_engine(
-    count: int, world: World | None = None, starts: list[Pose] | None = None
-) -> tuple[Engine, list[str]]:
+def make_engine(count: int, world: World | None = None, starts: list[Pose] | None = None) -> tuple[Engine, list[str]]:
     """An engine with so many TurtleBot3 in it, and their names."""
     engine = Engine(world or sim_room.room(), rng)
     names = [f"robot_{i}" for i in range(count)]
@@ -63,10 +61,7 @@ def engine_factor(seconds: float, count: int) -> float:
         driven = track[RATE:]
         length = sum(math.dist(one[:2], other[:2]) for one, other in pairwise(driven))
         expected = (len(driven) - 1) / RATE * sim_room.SPEED
-        expect(
-            abs(length / expected - 1) < 0.1,
-            f"a robot went {length:.3f} m, and was told to go {expected:.3f} m",
-        )
+        expect(abs(length / expected - 1) < 0.1, f"a robot went {length:.3f} m, and was told to go {expected:.3f} m")
     return (number / RATE) / spent
 
 
@@ -78,9 +73,7 @@ def crowd_factor(seconds: float, count: int) -> float:
     """
     engine, names = make_engine(count)
     begin, touching, number = 0.0, 0, 0
-    for number in range(
-        max(round(seconds * RATE), RATE) + 2 * RATE
-    ):  # in the first two seconds they get at each other
+    for number in range(max(round(seconds * RATE), RATE) + 2 * RATE):  # in the first two seconds they get at each other
         if number == 2 * RATE:
             begin = time.process_time()
         if number % (RATE // COMMANDS) == 0:

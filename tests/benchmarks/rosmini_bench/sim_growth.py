@@ -130,16 +130,10 @@ def measures(scale: float) -> Iterator[Measure]:
     def table(what: str, unit: str, sizes: Sequence[int], cost: Callable[[int], float]) -> Iterator[Measure]:
         kept = cache(cost)
         for size in sizes:
-            yield Measure(
-                what.format(f"{size:,}"), unit, partial(kept, size), more_is_better=False, once=True
-            )
+            yield Measure(what.format(f"{size:,}"), unit, partial(kept, size), more_is_better=False, once=True)
         name = f"the same, exponent of n ({what.format('n')})"
         yield Measure(
-            name,
-            "1",
-            lambda: exponent(sizes, [kept(size) for size in sizes]),
-            more_is_better=False,
-            once=True,
+            name, "1", lambda: exponent(sizes, [kept(size) for size in sizes]), more_is_better=False, once=True
         )
 
     yield from table("engine, each of {} robots", "us/step", ROBOTS, lambda count: step_cost(count, seconds))

@@ -43,8 +43,7 @@ def model_text(count: int) -> str:
         (0, -corner, corner, 0.01),
     ]
     outside = [
-        (x + math.copysign(0.01, x) * (x != 0), y + math.copysign(0.01, y) * (y != 0), a, b)
-        for x, y, a, b in sides
+        (x + math.copysign(0.01, x) * (x != 0), y + math.copysign(0.01, y) * (y != 0), a, b) for x, y, a, b in sides
     ]
     solid = [f'<geom type="box" pos="{x} {y} 0.25" size="{a} {b} 0.25"/>' for x, y, a, b in outside]
     solid += [
@@ -52,8 +51,7 @@ def model_text(count: int) -> str:
         for x, y, heading in sim_room.PARTITIONS
     ]
     solid += [
-        f'<geom type="cylinder" pos="{x} {y} 0.25" size="{sim_room.PILLAR.radius} 0.25"/>'
-        for x, y in sim_room.PILLARS
+        f'<geom type="cylinder" pos="{x} {y} 0.25" size="{sim_room.PILLAR.radius} 0.25"/>' for x, y in sim_room.PILLARS
     ]
     robots = [
         f'<body pos="{x} {y} 0.1"><joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 1 0"/>'

@@ -128,17 +128,13 @@ def lidar_error(places: int = 5) -> float:
         x, y, theta = start
         found = engine.scan("burger")
         x, y = x + lidar.mount[0] * math.cos(theta), y + lidar.mount[0] * math.sin(theta)
-        exact = np.array(
-            [first_hit(world, x, y, theta + 2 * math.pi * i / lidar.beams) for i in range(lidar.beams)]
-        )
+        exact = np.array([first_hit(world, x, y, theta + 2 * math.pi * i / lidar.beams) for i in range(lidar.beams)])
         exact[exact > lidar.range_max] = np.inf
         wrong = np.isfinite(exact) != np.isfinite(found)
         both = np.isfinite(exact) & np.isfinite(found)
         errors = np.sort(np.abs(found[both] - exact[both]))
         if wrong.sum() > 2 or not both.any():
-            msg = (
-                f"{wrong.sum()} of {lidar.beams} rays hit what they should miss, or miss what they should hit"
-            )
+            msg = f"{wrong.sum()} of {lidar.beams} rays hit what they should miss, or miss what they should hit"
             raise RosminiError(msg)
         worst = max(worst, float(errors[-3]))
     return _within(worst, 1e-9, "a range")
@@ -216,11 +212,7 @@ def measures(scale: float) -> Iterator[Measure]:
         ("way of braking, off u^2 / 2a", "m", braking_error),
         ("equal discs, elastic blow, off (0, u)", "m/s", lambda: collision_error(1.0)),
         ("equal discs, e = 0.5, off (u / 4, 3 u / 4)", "m/s", lambda: collision_error(0.5)),
-        (
-            "equal discs, e = 0.5, with friction, off their places of rest",
-            "m",
-            lambda: collision_error(0.5, 0.3),
-        ),
+        ("equal discs, e = 0.5, with friction, off their places of rest", "m", lambda: collision_error(0.5, 0.3)),
         ("wheels that slip against a wall, off v t", "m", slip_error),
         ("ranges without noise, off exact geometry", "m", lidar_error),
     ]

@@ -27,9 +27,7 @@ def questions(count: int) -> list[tuple[str, str, int]]:
     """Return pairs of frames of a small set, as a robot asks for, at random times within the buffer."""
     rng = random.Random(7)
     pairs = [(f"f{rng.randrange(FRAMES)}", f"f{rng.randrange(FRAMES)}") for _ in range(50)]
-    return [
-        (*rng.choice(pairs), START_NS + rng.randrange(STEP_NS, (SAMPLES - 1) * STEP_NS)) for _ in range(count)
-    ]
+    return [(*rng.choice(pairs), START_NS + rng.randrange(STEP_NS, (SAMPLES - 1) * STEP_NS)) for _ in range(count)]
 
 
 def main(count: int) -> None:
@@ -46,10 +44,7 @@ def main(count: int) -> None:
         for number in range(1, FRAMES):
             message.header.frame_id, message.child_frame_id = f"f{parent(number)}", f"f{number}"
             buffer.set_transform(message, "bench")
-    asked = [
-        (target, source, rospy.Time(*divmod(when, 1_000_000_000)))
-        for target, source, when in questions(count)
-    ]
+    asked = [(target, source, rospy.Time(*divmod(when, 1_000_000_000))) for target, source, when in questions(count)]
     begin = time.process_time()
     total = sum(buffer.lookup_transform_core(*one).transform.translation.x for one in asked)
     print((time.process_time() - begin) / count * 1e6, total)

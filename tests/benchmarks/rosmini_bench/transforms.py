@@ -94,10 +94,7 @@ def real_lookup_us(python: str, count: int) -> float:
 
 def has_tf2(rospy: Rospy) -> bool:
     """Tell whether the real tf2 is installed beside the real rospy."""
-    return (
-        subprocess.run([rospy.python, "-c", "import tf2_py"], capture_output=True, check=False).returncode
-        == 0
-    )
+    return subprocess.run([rospy.python, "-c", "import tf2_py"], capture_output=True, check=False).returncode == 0
 
 
 def measures(rospy: Rospy | None, scale: float) -> Iterator[Measure]:

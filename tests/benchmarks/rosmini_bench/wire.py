@@ -49,12 +49,7 @@ class Process:
 
     def __init__(self, words: list[str], env: dict[str, str]) -> None:
         self._process = subprocess.Popen(
-            words,
-            env=env,
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            encoding="utf-8",
+            words, env=env, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, encoding="utf-8"
         )
 
     def answer(self) -> float:
@@ -68,9 +63,7 @@ class Process:
                 if isinstance(answer, str):
                     raise RosminiError(f"no figure of the wire: {answer}")
                 return float(answer)
-        raise RosminiError(
-            "a node of the wire's benchmark ended; run it by hand: rosmini rosrun, wire_node.py"
-        )
+        raise RosminiError("a node of the wire's benchmark ended; run it by hand: rosmini rosrun, wire_node.py")
 
     def ask(self, **command: Any) -> float:
         """Tell it to do something and wait for the answer."""
@@ -230,11 +223,7 @@ def measures(rospy: Rospy | None, scale: float, stack: ExitStack) -> Iterator[Me
 
     def both(name: str, unit: str, run: Callable[[Side], float], *, more: bool = True) -> Measure:
         return Measure(
-            f"wire: {name}",
-            unit,
-            lambda: run(mine),
-            None if peer is None else lambda: run(peer),
-            more_is_better=more,
+            f"wire: {name}", unit, lambda: run(mine), None if peer is None else lambda: run(peer), more_is_better=more
         )
 
     def times(count: int) -> int:
@@ -242,23 +231,15 @@ def measures(rospy: Rospy | None, scale: float, stack: ExitStack) -> Iterator[Me
 
     if sys.platform != "win32":
         yield both("memory of a node's process", "MB", Side.memory, more=False)
-    yield both(
-        "String of 100 bytes", "messages/s", lambda side: side.throughput("/bench/string", times(100_000))
-    )
+    yield both("String of 100 bytes", "messages/s", lambda side: side.throughput("/bench/string", times(100_000)))
     yield both(
         "String of 100 bytes, queue_size=5000",
         "messages/s",
         lambda side: side.throughput("/bench/string/queued", times(100_000), 5000),
     )
-    yield both(
-        "LaserScan of 360 beams", "messages/s", lambda side: side.throughput("/bench/scan", times(20_000))
-    )
+    yield both("LaserScan of 360 beams", "messages/s", lambda side: side.throughput("/bench/scan", times(20_000)))
     yield both("image of 1 MB", "MB/s", lambda side: side.throughput("/bench/image", times(1_000)))
-    yield both(
-        f"String of 100 bytes to {LISTENERS} processes",
-        "messages/s",
-        lambda side: side.fan_out(times(20_000)),
-    )
+    yield both(f"String of 100 bytes to {LISTENERS} processes", "messages/s", lambda side: side.fan_out(times(20_000)))
     for kind, what in (
         ("string", "String of 100 bytes"),
         ("scan", "LaserScan of 360 beams"),
@@ -271,15 +252,9 @@ def measures(rospy: Rospy | None, scale: float, stack: ExitStack) -> Iterator[Me
             more=False,
         )
     yield both(
-        "service calls of a persistent client",
-        "calls/s",
-        lambda side: side.calls(times(10_000), persistent=True),
+        "service calls of a persistent client", "calls/s", lambda side: side.calls(times(10_000), persistent=True)
     )
-    yield both(
-        "service calls, a connection each", "calls/s", lambda side: side.calls(times(500), persistent=False)
-    )
+    yield both("service calls, a connection each", "calls/s", lambda side: side.calls(times(500), persistent=False))
     yield both(f"the Master registers and forgets {NODES} nodes", "s", Side.registrations, more=False)
-    yield Measure(
-        f"wire: {NODES} nodes of one process join", "s", lambda: nodes_join(mine.core), more_is_better=False
-    )
+    yield Measure(f"wire: {NODES} nodes of one process join", "s", lambda: nodes_join(mine.core), more_is_better=False)
     yield both("rostopic list", "s", Side.tool, more=False)

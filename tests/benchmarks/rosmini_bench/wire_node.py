@@ -109,10 +109,7 @@ class Talker:
             publisher = rospy.Publisher(topic, type(message), queue_size=queue_size, tcp_nodelay=True)
             self.publishers[topic, queue_size] = publisher, hears
         publisher, hears = self.publishers[topic, queue_size]
-        self.wait(
-            lambda: publisher.get_num_connections() == hears.get_num_connections() == listeners,
-            "the listeners",
-        )
+        self.wait(lambda: publisher.get_num_connections() == hears.get_num_connections() == listeners, "the listeners")
         return publisher
 
     def wait(self, condition: Callable[[], bool], what: str) -> None:

@@ -24,9 +24,7 @@ def test_the_mistyped_topic_is_found_and_mended(cells):
     assert "/cmd_vel, to which /simulator subscribes" in said
     assert "did you mean /cmd_val?" in said
     [mended] = [
-        cell
-        for cell in cells
-        if cell.cell_type == "code" and "%roswtf" in cell.source and "cmd_val" not in cell.source
+        cell for cell in cells if cell.cell_type == "code" and "%roswtf" in cell.source and "cmd_val" not in cell.source
     ]
     assert "Nobody publishes" not in "".join(output.get("text", "") for output in mended.outputs)
 

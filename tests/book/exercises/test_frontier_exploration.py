@@ -16,6 +16,4 @@ def test_frontiers_by_hand(cells):
 
 
 def test_a_polygon_whose_edges_cross_is_refused(cells):
-    assert "Not a valid polygon, restarting: the edges after vertices 1 and 3" in printed(
-        cells, "(2, 2), (2, 0)"
-    )
+    assert "Not a valid polygon, restarting: the edges after vertices 1 and 3" in printed(cells, "(2, 2), (2, 0)")

@@ -21,9 +21,7 @@ def test_the_verbs_of_gz_exist_as_they_are_written(prose):
 
 
 def test_the_services_of_the_boxes_exist(prose, code):
-    named = set(re.findall(r"rosservice call /gazebo/(\w+)", prose)) | set(
-        re.findall(r'call\("(\w+)"', "".join(code))
-    )
+    named = set(re.findall(r"rosservice call /gazebo/(\w+)", prose)) | set(re.findall(r'call\("(\w+)"', "".join(code)))
     from rosmini import Graph, rosrun
 
     with Graph() as graph:

@@ -11,10 +11,7 @@ from .conftest import all_printed
 
 def test_what_the_text_says_is_printed(cells):
     said = all_printed(cells)
-    trust = {
-        float(a): (int(b), int(c))
-        for a, b, c in re.findall(r"^ *([\d.]+) +(\d+) +(\d+)$", said, re.MULTILINE)
-    }
+    trust = {float(a): (int(b), int(c)) for a, b, c in re.findall(r"^ *([\d.]+) +(\d+) +(\d+)$", said, re.MULTILINE)}
     assert trust[0][1] == trust[0.5][1] == trust[1][1] < trust[1000][1]
     assert trust[0][0] > 2 * trust[1][0]
     assert "within 0.4 m: no plan\n" in said

@@ -27,9 +27,7 @@ def test_nobody_of_those_who_changed_places_was_in_the_others_way(figures):
     """Both arrived, by the replay's own words."""
     (x, y), (other_x, other_y) = [
         map(float, found)
-        for found in re.findall(
-            r"^tb3_\d(?: \(burger\).*?)?: .*?end \((.*?), (.*?),", figures[1], re.MULTILINE
-        )[:2]
+        for found in re.findall(r"^tb3_\d(?: \(burger\).*?)?: .*?end \((.*?), (.*?),", figures[1], re.MULTILINE)[:2]
     ]
     assert (x, y) == pytest.approx((3.0, 1.0), abs=0.2)
     assert (other_x, other_y) == pytest.approx((-3.0, 1.0), abs=0.2)

@@ -29,9 +29,7 @@ def test_the_controller_errs_least_and_the_wall_is_told_by_those_that_look(cells
 
 
 def test_a_turn_may_count_its_rounds():
-    counted = TURN.replace(
-        "while 0.5 * (rospy.Time.now() - start).to_sec() < math.pi / 2:", "for _ in range(62):"
-    )
+    counted = TURN.replace("while 0.5 * (rospy.Time.now() - start).to_sec() < math.pi / 2:", "for _ in range(62):")
     assert find("turn").grade(Script("turn.py", counted)).status is Status.RIGHT
 
 

@@ -6,10 +6,7 @@ from .conftest import printed
 
 
 def test_the_numbers_of_the_prose_are_those_of_the_queues(cells):
-    rows = {
-        row.split()[0]: row.split()[1:]
-        for row in printed(cells, 'print("queue picture:age")').splitlines()[1:]
-    }
+    rows = {row.split()[0]: row.split()[1:] for row in printed(cells, 'print("queue picture:age")').splitlines()[1:]}
     ages = {size: [float(entry.partition(":")[2]) for entry in row] for size, row in rows.items()}
     prose = " ".join(cell.source for cell in cells if cell.cell_type == "markdown")
     assert len(ages["None"]) == 10

@@ -19,9 +19,7 @@ def test_parameters_that_the_text_names_exist(chapter):
 
     everything = "\n".join(cell.source for cell in chapter.cells)
     named = set(re.findall(r"[\s`\"](_\w+):=", everything))
-    known = {
-        row[0].replace("~", "_") for each in (SimulatorParameters, StageParameters) for row in each.table()
-    }
+    known = {row[0].replace("~", "_") for each in (SimulatorParameters, StageParameters) for row in each.table()}
     assert {"_world", "_noise", "_base_watchdog_timeout"} <= named <= known
 
 
@@ -42,9 +40,7 @@ def test_the_watchdog_and_the_bounds_are_those_of_the_text(prose, tmp_path):
 def test_a_robot_is_dragged_in_the_view_and_only_gps_notices(prose, tmp_path):
     assert "`stage.view()`" in prose
     for kind, believed in (("gps", (1.0, -2.0)), ("odom", (0.0, 0.0))):
-        (tmp_path / "one.world").write_text(
-            f'position( pose [-3 0 0 0] localization "{kind}" )', encoding="utf-8"
-        )
+        (tmp_path / "one.world").write_text(f'position( pose [-3 0 0 0] localization "{kind}" )', encoding="utf-8")
         with Graph() as graph:
             stage = rosrun("stage_ros", "stageros", tmp_path / "one.world", graph=graph).instance()
             stage.view().drag("robot_0", (1.0, -2.0))

@@ -18,9 +18,7 @@ from rosmini.msgs.sensor_msgs.msg import LaserScan, Range
 
 
 def test_no_port_of_a_run_is_stored(cells: Any) -> None:
-    outputs = [
-        text for cell in cells for output in cell.get("outputs", []) for text in notebooks.texts(output)
-    ]
+    outputs = [text for cell in cells for output in cell.get("outputs", []) for text in notebooks.texts(output)]
     assert not re.search(r"localhost(:|', )\d", "\n".join(outputs))
     assert "localhost:TALKER" in "\n".join(outputs)
 

@@ -16,9 +16,7 @@ def tree(cls, indent=""):
 
 
 def test_the_answers_of_rosmsg_are_true(prose):
-    box = re.search(
-        r"\$ rosmsg show (\S+)\n(.*?)\n(?:> )?\$ rosmsg md5 (\S+)\n(?:> )?(\w+)", prose, re.DOTALL
-    )
+    box = re.search(r"\$ rosmsg show (\S+)\n(.*?)\n(?:> )?\$ rosmsg md5 (\S+)\n(?:> )?(\w+)", prose, re.DOTALL)
     shown, lines, fingerprinted, md5 = box.groups()
     assert [line.removeprefix("> ") for line in lines.splitlines()] == list(tree(message_class(shown)))
     assert message_class(fingerprinted)._md5sum == md5

@@ -30,9 +30,7 @@ def test_scripts_take_the_same_half_second_as_the_text(prose):
 
 
 def test_fifty_robots_drift_as_the_formulas_say(cells):
-    straight = re.findall(
-        r"sideways +([\d.]+) cm, predicted +([\d.]+);", printed(cells, "for way in range(1, 6):")
-    )
+    straight = re.findall(r"sideways +([\d.]+) cm, predicted +([\d.]+);", printed(cells, "for way in range(1, 6):"))
     assert len(straight) == 5
     rows = re.findall(r"([\d.]+) (?:cm|deg) \( ?([\d.]+)\)", printed(cells, "alone = replace("))
     assert len(rows) == 16
@@ -44,10 +42,7 @@ def test_fifty_robots_drift_as_the_formulas_say(cells):
 def test_the_numbers_of_the_text_are_printed(cells, prose):
     fit = printed(cells, "def ellipse(")
     within = re.findall(r": (\d+) of 50 robots", fit)
-    assert (
-        f"on the straight way it is only {within[0]}" in prose.lower()
-        and f"{within[1]} of 50, where" in prose
-    )
+    assert f"on the straight way it is only {within[0]}" in prose.lower() and f"{within[1]} of 50, where" in prose
     off = re.findall(r"([\d.]+) mm and +(-?[\d.]+) deg", printed(cells, "def compare("))
     assert all(float(number) == 0 for pair in off[:4] for number in pair)
     largest = max(float(pair[0]) for pair in off[4:]), max(abs(float(pair[1])) for pair in off[4:])

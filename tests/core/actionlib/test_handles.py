@@ -213,21 +213,16 @@ def test_a_cancellation_of_an_unknown_goal_cancels_no_other(sim):
     handle, _ = send(client)
     sim.run(0.1)
     assert [goal.id for goal in desk.goals] == ["sent long ago", handle.id]
-    assert [(one.status.goal_id.id, one.status.goal_id.stamp, one.goal) for one in desk.server.status_list][
-        :1
-    ] == [("unknown", Time(), None)]
+    assert [(one.status.goal_id.id, one.status.goal_id.stamp, one.goal) for one in desk.server.status_list][:1] == [
+        ("unknown", Time(), None)
+    ]
     assert desk.server.last_cancel == Time()
 
 
 def test_a_handle_without_a_goal_says_so(sim):
     desk = Desk(sim)
     empty = ServerGoalHandle(None, desk.server)
-    assert (empty.get_goal(), empty.id, empty == empty, empty.set_cancel_requested()) == (
-        None,
-        "",
-        False,
-        False,
-    )
+    assert (empty.get_goal(), empty.id, empty == empty, empty.set_cancel_requested()) == (None, "", False, False)
     for step in (empty.set_accepted, empty.get_goal_id, lambda: empty.publish_feedback(FibonacciFeedback())):
         with pytest.raises(ActionException, match=r"goal handle .*has no goal"):
             step()
@@ -376,9 +371,7 @@ def test_forgotten_goals_and_stopped_ends(sim):
 
 def test_what_is_no_action(sim):
     node = sim.node("n")
-    with pytest.raises(
-        ActionException, match=r"FibonacciGoal is not an action type.*: give FibonacciAction$"
-    ):
+    with pytest.raises(ActionException, match=r"FibonacciGoal is not an action type.*: give FibonacciAction$"):
         ActionClient(node, "work", FibonacciGoal)
     with pytest.raises(ActionException, match=r"int is not an action type"):
         ActionServer(node, "work", int, print)

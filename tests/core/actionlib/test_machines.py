@@ -68,9 +68,7 @@ def test_every_goal_of_a_server_ends_and_stays_ended() -> None:
     reachable, new = set(), {Status.PENDING}
     while new:
         reachable |= new
-        new = {
-            after for table in SERVER_TRANSITIONS.values() for before, after in table.items() if before in new
-        }
+        new = {after for table in SERVER_TRANSITIONS.values() for before, after in table.items() if before in new}
         new -= reachable
     assert reachable == set(Status) - {Status.LOST}
     ends = {one for one in reachable if not any(one in table for table in SERVER_TRANSITIONS.values())}
@@ -155,9 +153,7 @@ def test_each_status_heard_in_each_state_of_the_client(state: CommState, status:
         assert visited == expected.split()
         assert machine.state.name == (visited[-1] if visited else state.name)
     else:
-        with pytest.raises(
-            IllegalTransition, match=f"{status.name}, but the client was already {state.name}"
-        ):
+        with pytest.raises(IllegalTransition, match=f"{status.name}, but the client was already {state.name}"):
             path(state, status)
         if state is CommState.DONE:  # what is over is deaf
             machine.hear(status)
@@ -245,9 +241,7 @@ def test_no_client_is_surprised_by_a_server_that_keeps_to_its_machine() -> None:
 
 
 def test_the_numbers_are_those_of_the_message() -> None:
-    assert {one.name: one.value for one in Status} == {
-        one.name: getattr(GoalStatus, one.name) for one in Status
-    }
+    assert {one.name: one.value for one in Status} == {one.name: getattr(GoalStatus, one.name) for one in Status}
     assert all(Status[one.name] == one for one in TerminalState)
 
 

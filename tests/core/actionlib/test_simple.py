@@ -6,22 +6,11 @@ import threading
 
 import pytest
 
-from rosmini.core.actionlib import (
-    ActionException,
-    SimpleActionClient,
-    SimpleActionServer,
-    SimpleGoalState,
-    Status,
-)
+from rosmini.core.actionlib import ActionException, SimpleActionClient, SimpleActionServer, SimpleGoalState, Status
 from rosmini.core.errors import CallbackError
 from rosmini.core.graph import Graph
 from rosmini.core.time import Duration, Time
-from rosmini.msgs.actionlib_tutorials.msg import (
-    FibonacciAction,
-    FibonacciFeedback,
-    FibonacciGoal,
-    FibonacciResult,
-)
+from rosmini.msgs.actionlib_tutorials.msg import FibonacciAction, FibonacciFeedback, FibonacciGoal, FibonacciResult
 from rosmini.msgs.rosgraph_msgs.msg import Clock
 
 from ...processes import PATIENCE
@@ -136,11 +125,7 @@ def test_of_several_that_wait_the_newest_is_kept(sim):
         other.send(number)
     sim.run(3)
     assert first.entries[-1][0] == "PREEMPTED"
-    assert [other.entries[-1] for other in others] == [
-        ("RECALLED", []),
-        ("RECALLED", []),
-        ("SUCCEEDED", [0, 1, 1, 2]),
-    ]
+    assert [other.entries[-1] for other in others] == [("RECALLED", []), ("RECALLED", []), ("SUCCEEDED", [0, 1, 1, 2])]
     assert (
         others[0].client.get_goal_status_text()
         == "This goal was canceled because another goal was received by the simple action server"
@@ -300,8 +285,7 @@ def test_questions_without_a_goal(sim, lenient, log):
     client = Diary(sim).client
     for ask in (client.get_result, client.wait_for_result, client.get_goal_status_text):
         with pytest.raises(
-            ActionException,
-            match=rf"{ask.__name__}\(\) was called before any goal was sent .*send_goal\(\) first",
+            ActionException, match=rf"{ask.__name__}\(\) was called before any goal was sent .*send_goal\(\) first"
         ):
             ask()
     assert client.get_state() is Status.LOST

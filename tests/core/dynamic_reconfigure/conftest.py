@@ -18,19 +18,13 @@ def number(name: str, kind: str = "double", **about: Any) -> dict[str, Any]:
 
 TREE: dict[str, Any] = {
     "name": "Default",
-    "parameters": [
-        number("gain", default=1.5, min=0.0, max=10.0),
-        number("mode", "str", level=4, default="slow"),
-    ],
+    "parameters": [number("gain", default=1.5, min=0.0, max=10.0), number("mode", "str", level=4, default="slow")],
     "groups": [
         {
             "name": "Filter",
             "type": "collapse",
             "state": False,
-            "parameters": [
-                number("window", "int", level=2, default=5, min=1, max=99),
-                number("on", "bool", level=8),
-            ],
+            "parameters": [number("window", "int", level=2, default=5, min=1, max=99), number("on", "bool", level=8)],
             "groups": [{"name": "Deep", "parameters": [number("depth", level=16, min=-1.0)], "groups": []}],
         }
     ],

@@ -87,9 +87,7 @@ def test_values_on_the_parameter_server_come_first_and_are_limited(sim, capsys):
     assert (served.server.config.gain, served.server.config.window) == (3.0, 99)
     assert served.node.get_param("/tuned/inner/window") == 99
     setter.set_param("/tuned/gain", "much")
-    with pytest.raises(
-        DynamicReconfigureParameterException, match=r"/tuned/gain has the type double.*set it again"
-    ):
+    with pytest.raises(DynamicReconfigureParameterException, match=r"/tuned/gain has the type double.*set it again"):
         Server(served.node, TREE, served.callback)
 
 
@@ -170,10 +168,7 @@ def test_changes_come_one_after_another_though_the_callback_blocks(graph):
         client = Client(one, "tuned", 5)
         one.run(lambda client=client, count=count: client.update_configuration({"gain": count}))
     graph.run(100.0, until=lambda: len(events) == 8)
-    assert all(
-        events[index][0] == "begin" and events[index + 1] == ("end", events[index][1])
-        for index in (0, 2, 4, 6)
-    )
+    assert all(events[index][0] == "begin" and events[index + 1] == ("end", events[index][1]) for index in (0, 2, 4, 6))
     assert sorted(value for _, value in events[2::2]) == [0.0, 1.0, 2.0]
 
 

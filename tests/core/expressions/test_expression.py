@@ -154,9 +154,7 @@ def test_attributes_are_read_by_the_caller_and_methods_called_by_type():
         raise AttributeError(f"no {name}")
 
     def one(text):
-        return Expression(text, names=("p",), fields=fields, methods={Point: {"length"}}).evaluate(
-            {"p": Point()}
-        )
+        return Expression(text, names=("p",), fields=fields, methods={Point: {"length"}}).evaluate({"p": Point()})
 
     assert one("p.x + p.length()") == 8
     for wrong in ("p.secret", "p.length", "p.x()"):
@@ -169,15 +167,10 @@ def test_names_may_be_known_only_when_it_is_evaluated():
     assert expression.evaluate({"a": 1, "b": 2}) == 3
     with pytest.raises(ExpressionError, match=r"name 'b' is not defined \(in 'b'\)"):
         expression.evaluate({"a": 1})
-    assert (
-        Expression("twice(a)", functions={"twice": Function("twice", lambda a: 2 * a)}).evaluate({"a": 4})
-        == 8
-    )
+    assert Expression("twice(a)", functions={"twice": Function("twice", lambda a: 2 * a)}).evaluate({"a": 4}) == 8
 
 
 def test_every_kind_of_node_is_decided_on():
     """A kind of node that a later Python adds is refused, since only those listed are made."""
     assert all(issubclass(kind, ast.expr) for kind in Expression.NODES)
-    assert {ast.Lambda, ast.JoinedStr, ast.NamedExpr, ast.Starred, ast.Await, ast.Yield}.isdisjoint(
-        Expression.NODES
-    )
+    assert {ast.Lambda, ast.JoinedStr, ast.NamedExpr, ast.Starred, ast.Await, ast.Yield}.isdisjoint(Expression.NODES)

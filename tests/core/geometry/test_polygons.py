@@ -19,9 +19,7 @@ def star(seed, corners, x=0.0, y=0.0):
     """A polygon around (x, y), seldom convex, never crossing itself."""
     rng = np.random.default_rng(seed)
     angles = (np.arange(corners) + rng.uniform(0.1, 0.9, corners)) * math.tau / corners
-    return np.array([x, y]) + rng.uniform(0.3, 1.0, corners)[:, None] * np.stack(
-        [np.cos(angles), np.sin(angles)], 1
-    )
+    return np.array([x, y]) + rng.uniform(0.3, 1.0, corners)[:, None] * np.stack([np.cos(angles), np.sin(angles)], 1)
 
 
 stars = st.builds(star, st.integers(0, 10**6), st.integers(5, 9), st.floats(-1.5, 1.5), st.floats(-1.5, 1.5))

@@ -37,12 +37,8 @@ def test_a_pose_and_its_inverse_cancel(pose):
 @given(st.lists(st.tuples(poses, poses), min_size=1, max_size=5))
 def test_arrays_are_composed_and_inverted_as_tuples_are(pairs):
     first, second = np.array([a for a, _ in pairs]), np.array([b for _, b in pairs])
-    np.testing.assert_allclose(
-        compose(first, second), [compose(a, b) for a, b in pairs], rtol=1e-15, atol=1e-13
-    )
-    np.testing.assert_allclose(
-        compose(pairs[0][0], second), [compose(pairs[0][0], b) for _, b in pairs], atol=1e-13
-    )
+    np.testing.assert_allclose(compose(first, second), [compose(a, b) for a, b in pairs], rtol=1e-15, atol=1e-13)
+    np.testing.assert_allclose(compose(pairs[0][0], second), [compose(pairs[0][0], b) for _, b in pairs], atol=1e-13)
     np.testing.assert_allclose(inverse(first), [inverse(a) for a, _ in pairs], atol=1e-13)
 
 
@@ -93,9 +89,7 @@ def test_one_pose_at_many_times():
     np.testing.assert_allclose(path, [(1, 2, 0), (1.5, 2, 0), (2, 2, 0)])
 
 
-@pytest.mark.parametrize(
-    "call", [lambda: inverse(np.zeros(2)), lambda: transform_points((0.0, 0.0, 0.0), [1.0])]
-)
+@pytest.mark.parametrize("call", [lambda: inverse(np.zeros(2)), lambda: transform_points((0.0, 0.0, 0.0), [1.0])])
 def test_arrays_of_another_shape_are_refused(call):
     with pytest.raises(GeometryError, match=r"array \(\.\.\., \d\)"):
         call()

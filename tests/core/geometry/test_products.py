@@ -14,14 +14,7 @@ from rosmini.core.geometry import products as p
 from ...processes import run
 
 numbers = st.floats(-1e3, 1e3, allow_subnormal=False)
-SHAPES = [
-    ((4, 4), (4, 4)),
-    ((5, 3), (3, 3)),
-    ((2, 5, 3), (3, 4)),
-    ((3,), (3, 3)),
-    ((6, 7), (7,)),
-    ((0, 3), (3, 3)),
-]
+SHAPES = [((4, 4), (4, 4)), ((5, 3), (3, 3)), ((2, 5, 3), (3, 4)), ((3,), (3, 3)), ((6, 7), (7,)), ((0, 3), (3, 3))]
 
 KERNELS = """
 import numpy as np
@@ -66,9 +59,7 @@ def test_eigenvectors_are_orthogonal_and_give_the_matrix_back(half):
     values, vectors = p.eigen(matrix)
     assert (np.diff(values) >= 0).all()
     assert vectors.T @ vectors == pytest.approx(np.identity(4), abs=1e-9)
-    assert vectors @ np.diag(values) @ vectors.T == pytest.approx(
-        matrix, abs=1e-9 * (1 + np.abs(matrix).max())
-    )
+    assert vectors @ np.diag(values) @ vectors.T == pytest.approx(matrix, abs=1e-9 * (1 + np.abs(matrix).max()))
 
 
 def test_lengths_and_determinants():
@@ -81,9 +72,7 @@ def test_lengths_and_determinants():
 @pytest.mark.skipif("OPENBLAS_CORETYPE" in os.environ, reason="the machine chooses its BLAS kernels itself")
 def test_every_blas_kernel_gives_the_same_bits():
     found = {
-        run(
-            [sys.executable, "-c", KERNELS], env={**os.environ, "OPENBLAS_CORETYPE": kernel}, check=True
-        ).stdout
+        run([sys.executable, "-c", KERNELS], env={**os.environ, "OPENBLAS_CORETYPE": kernel}, check=True).stdout
         for kernel in ("Prescott", "Nehalem", "Haswell")
     }
     assert len(found) == 1

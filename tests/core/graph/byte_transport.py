@@ -131,11 +131,7 @@ class _ByteServiceLink:
         request_class, response_class = self._class._request_class, self._class._response_class
 
         def answer(response: Any, problem: str | None) -> None:
-            body = (
-                b"\x00" + problem.encode()
-                if problem is not None
-                else b"\x01" + bytes(response._encode(response))
-            )
+            body = b"\x00" + problem.encode() if problem is not None else b"\x01" + bytes(response._encode(response))
             self._wire.carry(lambda: arrive(body), failed)
 
         def arrive(body: bytes) -> None:
@@ -200,9 +196,7 @@ class ByteTransport:
 
         def serve(endpoint: Node) -> str:
             values, name = xmlrpc.client.loads(request)
-            return xmlrpc.client.dumps(
-                (endpoint.slave_call(cast("str", name), *values),), methodresponse=True
-            )
+            return xmlrpc.client.dumps((endpoint.slave_call(cast("str", name), *values),), methodresponse=True)
 
         reply = self._ask(uri, serve, in_scheduler=False)
         return cast("Triple", xmlrpc.client.loads(reply)[0][0])
@@ -230,9 +224,7 @@ class ByteTransport:
         reply = decode_header(self._ask(parameters[1], serve))
         return reply, made[0].drop
 
-    def connect_service(
-        self, caller: str, service_uri: str, header: Header, service_class: Any
-    ) -> _ByteServiceLink:
+    def connect_service(self, caller: str, service_uri: str, header: Header, service_class: Any) -> _ByteServiceLink:
         """Open a service connection by exchanging headers; blocks."""
         request = encode_header(header)
 
@@ -265,9 +257,7 @@ class ByteTransport:
                 waiter.fail(error)
 
         def failed(error: Exception) -> None:
-            problem = TransportException(
-                f"the connection to {endpoint.name} failed: {type(error).__name__}: {error}"
-            )
+            problem = TransportException(f"the connection to {endpoint.name} failed: {type(error).__name__}: {error}")
             problem.__cause__ = error
             waiter.fail(problem)
 

@@ -72,9 +72,7 @@ def threads() -> set[str]:
 def make(kind: str, **options: Any) -> Graph:
     """A graph of one of the KINDS."""
     transport, simulated = KINDS[kind]
-    graph = Graph(
-        transports=[transport], simulated=simulated, rate=1.0 if simulated else WALL_RATE, **options
-    )
+    graph = Graph(transports=[transport], simulated=simulated, rate=1.0 if simulated else WALL_RATE, **options)
     if kind == RESTLESS:
         RestlessMaster(graph, SEED)
     return graph

@@ -56,11 +56,7 @@ class Seeds:
         """End a child, having told what failed."""
         if self._is_child:
             row = f"{conftest.SEED} {len(self._failed)} of {len(session.items)} failed {' '.join(self._failed)}\n"
-            for fd in (
-                [1]
-                if self._rows is None
-                else [1, os.open(self._rows, os.O_WRONLY | os.O_APPEND | os.O_CREAT)]
-            ):
+            for fd in [1] if self._rows is None else [1, os.open(self._rows, os.O_WRONLY | os.O_APPEND | os.O_CREAT)]:
                 os.write(fd, row.encode())
             os._exit(bool(self._failed))
 

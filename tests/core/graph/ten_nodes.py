@@ -24,11 +24,7 @@ def record() -> list[Any]:
 
         sensors = [graph.node(f"sensor{number}") for number in range(4)]
         filters = [graph.node(f"filter{number}") for number in range(3)]
-        server, logger, anonymous = (
-            graph.node("server"),
-            graph.node("logger"),
-            graph.node("a", anonymous=True),
-        )
+        server, logger, anonymous = (graph.node("server"), graph.node("logger"), graph.node("a", anonymous=True))
         note("names", list(graph.nodes))
         server.service("add", AddTwoInts, lambda request: request.a + request.b)
         for number, node in enumerate(sensors):

@@ -30,8 +30,7 @@ def failing(graph: Graph, heard: list[Any]) -> Publisher:
 
 
 TEXT = (
-    "failing.<locals>.on_number".rpartition("<locals>.")[2]
-    + " of /fails, called for /n, raised ZeroDivisionError",
+    "failing.<locals>.on_number".rpartition("<locals>.")[2] + " of /fails, called for /n, raised ZeroDivisionError",
     "test_callbacks.py, line ",
     "in on_number: heard.append(100 // message.data)",
     "The message (std_msgs/Int32):",
@@ -63,9 +62,7 @@ def test_in_a_lenient_graph_it_is_logged(lenient: Graph, capsys: pytest.CaptureF
     said = capsys.readouterr().err
     for text in TEXT:
         assert text in said
-    assert (
-        len([line for line in said.splitlines() if "[ERROR]" in line and "Will keep trying" not in line]) == 1
-    )
+    assert len([line for line in said.splitlines() if "[ERROR]" in line and "Will keep trying" not in line]) == 1
 
 
 def test_none_of_several_errors_is_lost(graph: Graph, capsys: pytest.CaptureFixture[str]) -> None:
@@ -114,8 +111,7 @@ def test_errors_in_timers_and_connection_callbacks_say_where(graph: Graph) -> No
     ticks: list[Any] = []
     other = node.timer(0.5, ticks.append)
     with pytest.raises(
-        CallbackError,
-        match=r"bad of /node, called for a timer, which ends with it, raised ValueError: broken",
+        CallbackError, match=r"bad of /node, called for a timer, which ends with it, raised ValueError: broken"
     ):
         until(graph, lambda: False)
     assert not timer.is_alive()  # as the thread of a rospy.Timer dies; the node and its other timers go on

@@ -6,12 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from rosmini.core.errors import (
-    GraphEnded,
-    ROSInterruptException,
-    RosminiError,
-    ROSTimeMovedBackwardsException,
-)
+from rosmini.core.errors import GraphEnded, ROSInterruptException, RosminiError, ROSTimeMovedBackwardsException
 from rosmini.core.graph.local_transport import LocalTransport
 from rosmini.core.time import Duration, Time
 from rosmini.msgs.rosgraph_msgs.msg import Clock
@@ -41,9 +36,7 @@ def test_sleeping_takes_its_time(graph: Graph, span: Any) -> None:
 
 
 @pytest.mark.parametrize("span", [0, 0.0, -1.0, Duration(-5), Duration(0)])
-def test_sleeping_for_nothing_or_less_takes_no_time_and_lets_the_others_run(
-    simulated: Graph, span: Any
-) -> None:
+def test_sleeping_for_nothing_or_less_takes_no_time_and_lets_the_others_run(simulated: Graph, span: Any) -> None:
     node, start = simulated.node("node"), simulated.now()
     seen: list[int] = []
     simulated.scheduler.call_soon(lambda: seen.append(1))
@@ -67,9 +60,7 @@ def test_a_rate_makes_up_for_what_a_turn_took(simulated: Graph) -> None:
     assert turns == [0.5, 1.0, 1.5, 2.0]
 
 
-def test_a_rate_catches_up_after_one_long_turn_and_starts_afresh_after_a_very_long_one(
-    simulated: Graph,
-) -> None:
+def test_a_rate_catches_up_after_one_long_turn_and_starts_afresh_after_a_very_long_one(simulated: Graph) -> None:
     node, start = simulated.node("node"), simulated.now()
     rate, turns = node.rate(1), []
     for work in (1.5, 0.0, 7.3, 0.0):

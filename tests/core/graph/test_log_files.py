@@ -118,8 +118,5 @@ def test_log_names_the_file_of_a_node_and_a_file_of_wall_time_is_continued(tmp_p
     for text in ("first", "second"):
         with Graph(simulated=False, log_dir=tmp_path) as graph:
             graph.node("talker", remappings={"__log": str(path)}).loginfo(text)
-    assert re.findall(r"\[rosout\]\[INFO\] .*: (\w+)\n", path.read_text(encoding="utf-8")) == [
-        "first",
-        "second",
-    ]
+    assert re.findall(r"\[rosout\]\[INFO\] .*: (\w+)\n", path.read_text(encoding="utf-8")) == ["first", "second"]
     assert [found.name for found in (tmp_path / RUN).iterdir()] == ["rosout-1.log"]

@@ -168,9 +168,7 @@ def test_the_last_message_is_for_listeners_that_come_later(simulated: Graph) -> 
 def test_each_place_of_a_built_in_node_is_throttled_by_itself(capsys):
     """The first of two different warnings of map_server once kept the second one quiet."""
     node = Graph().node("server")
-    text = (
-        "for _ in range(3):\n    node.logwarn('one', throttle=5.0)\n    node.logwarn('two', throttle=5.0)\n"
-    )
+    text = "for _ in range(3):\n    node.logwarn('one', throttle=5.0)\n    node.logwarn('two', throttle=5.0)\n"
     file = Path(rosmini.__file__).parent / "navigation" / "made_up.py"
     exec(compile(text, str(file), "exec"), {"node": node})
     assert [line.rpartition(" ")[2] for line in texts(capsys)] == ["one", "two"]

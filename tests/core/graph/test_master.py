@@ -112,12 +112,7 @@ METHODS = [
     "getParam", "hasParam", "deleteParam", "searchParam", "getParamNames", "subscribeParam", "unsubscribeParam",
 ]  # fmt: skip
 anything = (
-    st.none()
-    | st.booleans()
-    | st.integers()
-    | st.floats()
-    | st.text(max_size=4)
-    | st.lists(st.integers(), max_size=2)
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=4) | st.lists(st.integers(), max_size=2)
 )
 likely = st.sampled_from(
     ["/a", "/", "~", "~p", "a/b", ONE, "rosrpc://h:1", "*", "std_msgs/String", {}, {"a": {"b": 1}}]

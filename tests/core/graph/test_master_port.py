@@ -101,9 +101,7 @@ def test_the_calls_of_a_node_reach_the_master_in_their_order(graph: Graph, maste
     assert arrived == asked
 
 
-def test_a_lane_that_ends_while_it_waits_for_its_turn_holds_up_nobody(
-    graph: Graph, master: SlowMaster
-) -> None:
+def test_a_lane_that_ends_while_it_waits_for_its_turn_holds_up_nobody(graph: Graph, master: SlowMaster) -> None:
     node = graph.node("node")
     master.before = lambda *_: graph.scheduler.sleep_until(graph.scheduler.now_ns() + 10**9)
     got: list[int] = []
@@ -127,10 +125,7 @@ def test_a_registration_is_tried_until_the_master_answers(
     graph.run(0.3)
     assert ["/chatter", ["/node"]] in master.getSystemState("/test")[2][0]
     said = capsys.readouterr().err
-    assert (
-        said.count("Unable to register with master node [http://localhost:11311/]: master may not be running")
-        == 1
-    )
+    assert said.count("Unable to register with master node [http://localhost:11311/]: master may not be running") == 1
 
 
 def test_a_registration_that_the_master_refuses_leaves_nothing(graph: Graph, master: SlowMaster) -> None:
@@ -155,9 +150,7 @@ def test_a_question_that_is_not_answered_raises_at_once(graph: Graph, master: Sl
     ):
         with pytest.raises(MasterUnreachable, match="http://there:11311/ does not answer"):
             ask()
-    with pytest.raises(
-        ServiceException, match="unavailable: the Master at http://there:11311/ does not answer"
-    ):
+    with pytest.raises(ServiceException, match="unavailable: the Master at http://there:11311/ does not answer"):
         node.service_client("s", Trigger)()
     assert node.master.who_publishes("/chatter") == "the Master does not answer"
     master.before = lambda *_: None

@@ -94,14 +94,10 @@ def test_an_illegal_node_name_is_refused(simulated: Graph, name: str) -> None:
         lambda node: node.wait_for_message("my-topic", String),
     ],
 )
-def test_an_illegal_name_has_a_caret_under_the_bad_character(
-    simulated: Graph, use: Callable[[Any], object]
-) -> None:
+def test_an_illegal_name_has_a_caret_under_the_bad_character(simulated: Graph, use: Callable[[Any], object]) -> None:
     node = simulated.node("node")
     with pytest.raises(IllegalName) as caught:
         use(node)
-    shown, caret = [
-        line for line in str(caught.value).splitlines() if "my-topic" in line or line.strip() == "^"
-    ][-2:]
+    shown, caret = [line for line in str(caught.value).splitlines() if "my-topic" in line or line.strip() == "^"][-2:]
     assert caret.index("^") == shown.index("-")
     assert node.subscriptions == {}

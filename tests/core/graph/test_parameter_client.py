@@ -160,9 +160,7 @@ def test_an_expected_type_is_checked(simulated: Graph) -> None:
         (1j, "complex"),
     ],
 )
-def test_a_value_that_ros_cannot_hold_is_named_with_its_place(
-    simulated: Graph, value: Any, text: str
-) -> None:
+def test_a_value_that_ros_cannot_hold_is_named_with_its_place(simulated: Graph, value: Any, text: str) -> None:
     node = simulated.node("node")
     with pytest.raises(ParameterError, match=text) as caught:
         node.set_param("p", value)
@@ -173,9 +171,7 @@ def test_a_value_that_ros_cannot_hold_is_named_with_its_place(
 
 def test_numpy_values_are_taken_as_what_they_are(simulated: Graph) -> None:
     node = simulated.node("node")
-    node.set_param(
-        "p", {"speed": np.float64(0.5), "poses": np.arange(3), "n": np.int32(4), "on": np.bool_(True)}
-    )
+    node.set_param("p", {"speed": np.float64(0.5), "poses": np.arange(3), "n": np.int32(4), "on": np.bool_(True)})
     stored = node.get_param("p")
     assert type(stored["speed"]) is float
     assert stored == {"speed": 0.5, "poses": [0, 1, 2], "n": 4, "on": True}
@@ -329,9 +325,7 @@ def test_subscriptions_to_parameters_end(graph: Graph) -> None:
     other.set_param("rate", 3)
     settle(graph)
     assert (one, two) == ([1], [1, 2])
-    with pytest.raises(
-        ParameterError, match="node /node has no such callback for changes of parameter /rate"
-    ):
+    with pytest.raises(ParameterError, match="node /node has no such callback for changes of parameter /rate"):
         node.off_param("rate")
     node.on_param("rate", one.append)
     with pytest.raises(ParameterError, match=r"parameter /rat; did you mean /rate\?"):

@@ -18,9 +18,7 @@ scalars = (
 )
 names = st.from_regex(r"\A[a-z][a-z0-9_]{0,5}\Z")
 values = st.recursive(
-    scalars,
-    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(names, inner, max_size=3),
-    max_leaves=8,
+    scalars, lambda inner: st.lists(inner, max_size=3) | st.dictionaries(names, inner, max_size=3), max_leaves=8
 )
 
 

@@ -44,9 +44,7 @@ class Crossing:
     def __init__(self, graph: Graph) -> None:
         self.heard: dict[str, list[str]] = {}
         self.answers: list[str] = []
-        self.lanes = [
-            graph.scheduler.spawn(name, lambda name=name: self._start(graph, name)) for name in "ab"
-        ]
+        self.lanes = [graph.scheduler.spawn(name, lambda name=name: self._start(graph, name)) for name in "ab"]
         self.nodes: list[Node] = []
 
     def _start(self, graph: Graph, name: str) -> None:
@@ -70,9 +68,7 @@ class Crossing:
 
     def is_over(self) -> bool:
         """Return whether each has heard both and all answers have come."""
-        return [sorted(heard) for heard in self.heard.values()] == [["from a", "from b"]] * 2 and len(
-            self.answers
-        ) == 4
+        return [sorted(heard) for heard in self.heard.values()] == [["from a", "from b"]] * 2 and len(self.answers) == 4
 
 
 def play(seed: int) -> tuple[list[str], int]:

@@ -68,10 +68,7 @@ def test_everything_arrives_on_rosout_agg(graph: Graph) -> None:
     for node in nodes:
         node.loginfo(f"I am {node.name}")
     until(graph, lambda: len(heard) >= 2)
-    assert sorted((message.name, message.msg) for message in heard) == [
-        ("/one", "I am /one"),
-        ("/two", "I am /two"),
-    ]
+    assert sorted((message.name, message.msg) for message in heard) == [("/one", "I am /one"), ("/two", "I am /two")]
 
 
 @pytest.mark.parametrize("level", LEVELS)
@@ -88,9 +85,7 @@ def test_the_console_shows_level_time_and_text_on_rospys_streams(
     assert other == ""
 
 
-def test_the_time_of_the_console_is_that_of_the_node(
-    graph: Graph, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_time_of_the_console_is_that_of_the_node(graph: Graph, capsys: pytest.CaptureFixture[str]) -> None:
     graph.node("node").loginfo("text")
     assert re.fullmatch(r"\[INFO\] \[\d+\.\d{6}\]: text\n", capsys.readouterr().out)
 

@@ -241,9 +241,7 @@ def test_contexts_change_only_between_lanes_that_differ_in_them(scheduler: Sched
         scheduler.sleep_until(scheduler.now_ns() + SECOND)
 
     one, two = Context("one"), Context("two")
-    lanes = [
-        scheduler.spawn(str(index), nap, context=context) for index, context in enumerate([one, one, two])
-    ]
+    lanes = [scheduler.spawn(str(index), nap, context=context) for index, context in enumerate([one, one, two])]
     scheduler.run(until=lambda: all(lane.idle for lane in lanes))
     assert seen[:4] == ["enter one", "leave one", "enter two", "leave two"] or seen[:3] == [
         "enter one",
@@ -368,9 +366,7 @@ def test_an_interrupt_that_ends_nothing_says_what_it_waits_for(
     with pytest.raises(KeyboardInterrupt):
         scheduler.run(until_ns=scheduler.now_ns() + SECOND)
     told = capfd.readouterr().err
-    assert (
-        "Ctrl-C: waiting for /listener <- /chatter to come back from heard (test_scheduler.py, line" in told
-    )
+    assert "Ctrl-C: waiting for /listener <- /chatter to come back from heard (test_scheduler.py, line" in told
     assert "Press Ctrl-C again" in told
 
 

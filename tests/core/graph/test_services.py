@@ -9,13 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from rosmini.core.errors import (
-    GraphEnded,
-    ROSException,
-    ROSInterruptException,
-    SerializationError,
-    ServiceException,
-)
+from rosmini.core.errors import GraphEnded, ROSException, ROSInterruptException, SerializationError, ServiceException
 from rosmini.msgs import define_service
 from rosmini.msgs.rospy_tutorials.srv import AddTwoInts
 from rosmini.msgs.std_msgs.msg import Int32, String
@@ -67,9 +61,7 @@ def test_several_fields_by_order_and_by_name(graph: Graph) -> None:
     assert (second.success, second.message) == (False, "as a dictionary")
 
 
-@pytest.mark.parametrize(
-    "answer", [[], (), {}, Empty._response_class()], ids=["list", "tuple", "dict", "response"]
-)
+@pytest.mark.parametrize("answer", [[], (), {}, Empty._response_class()], ids=["list", "tuple", "dict", "response"])
 def test_a_response_without_fields(graph: Graph, answer: Any) -> None:
     graph.node("server").service("reset", Empty, lambda _: answer)
     assert graph.node("client").service_client("reset", Empty)()._type == "std_srvs/EmptyResponse"
@@ -80,9 +72,7 @@ def test_a_handler_that_returns_none_fails_for_an_empty_response_too(
 ) -> None:
     calls: list[Any] = []
     graph.node("server").service("reset", Empty, calls.append)
-    with pytest.raises(
-        ServiceException, match=r"service cannot process request: service handler returned None$"
-    ):
+    with pytest.raises(ServiceException, match=r"service cannot process request: service handler returned None$"):
         graph.node("client").service_client("reset", Empty)()
     assert len(calls) == 1
     assert "return [] or the response itself" in capfd.readouterr().err
@@ -97,18 +87,11 @@ def test_both_ends_see_the_connection_header(graph: Graph, persistent: bool) -> 
         return True, "done"
 
     graph.node("server").service("lamp", SetBool, handle)
-    client = graph.node("client").service_client(
-        "lamp", SetBool, persistent=persistent, headers={"cookie": "abc"}
-    )
+    client = graph.node("client").service_client("lamp", SetBool, persistent=persistent, headers={"cookie": "abc"})
     responses = [client(True)._connection_header, client(False)._connection_header]
     mine = {"callerid": "/client", "cookie": "abc", "md5sum": SetBool._md5sum, "service": "/lamp"}
     assert requests == [mine | ({"persistent": "1"} if persistent else {})] * 2
-    theirs = {
-        "callerid": "/server",
-        "md5sum": SetBool._md5sum,
-        "service": "/lamp",
-        "type": "std_srvs/SetBool",
-    }
+    theirs = {"callerid": "/server", "md5sum": SetBool._md5sum, "service": "/lamp", "type": "std_srvs/SetBool"}
     assert responses == [theirs] * 2
 
 
@@ -170,9 +153,7 @@ def test_a_wrong_response_is_an_error_at_the_client_and_said_at_the_server(
     graph.node("server").service("set", SetBool, lambda _: answer)
     with pytest.raises(ServiceException) as caught:
         graph.node("client").service_client("set", SetBool)(True)
-    assert str(caught.value).startswith(
-        "service [/set] responded with an error: service cannot process request"
-    )
+    assert str(caught.value).startswith("service [/set] responded with an error: service cannot process request")
     assert text in str(caught.value)
     assert "/set: service cannot process request" in capsys.readouterr().err
 
@@ -414,9 +395,7 @@ def test_each_caller_has_a_lane_of_its_own(graph: Graph) -> None:
     answers: list[int] = []
     for number in range(4):
         node = graph.node(f"client{number}")
-        node.run(
-            lambda node=node, number=number: answers.append(node.service_client("slow", ADD)(number, 0).sum)
-        )
+        node.run(lambda node=node, number=number: answers.append(node.service_client("slow", ADD)(number, 0).sum))
     until(graph, lambda: len(answers) == 4)
     assert sorted(answers) == [0, 1, 2, 3]
 

@@ -50,7 +50,5 @@ def test_help_lists_the_options(home, method, kind):
         if one.kind is inspect.Parameter.KEYWORD_ONLY and one.name not in taken
     ]
     assert wanted
-    listed = [
-        line.strip() for line in (inspect.getdoc(function) or "").splitlines() if line.startswith("    ")
-    ]
+    listed = [line.strip() for line in (inspect.getdoc(function) or "").splitlines() if line.startswith("    ")]
     assert [line[: len(start)] for line, start in zip(listed, wanted, strict=True)] == wanted

@@ -53,11 +53,7 @@ def test_each_method_answers_as_in_ros(talking: Graph) -> None:
         "publications",
         [["/rosout", "rosgraph_msgs/Log"], ["/chatter", "std_msgs/String"]],
     ]
-    assert call(talking, "/listener", "getSubscriptions") == [
-        1,
-        "subscriptions",
-        [["/chatter", "std_msgs/String"]],
-    ]
+    assert call(talking, "/listener", "getSubscriptions") == [1, "subscriptions", [["/chatter", "std_msgs/String"]]]
     assert call(talking, "/talker", "requestTopic", "/nope", offers) == [-1, "Not a publisher of [/nope]", []]
     assert call(talking, "/talker", "requestTopic", "/chatter", [["UDPROS"]]) == [
         0,
@@ -99,9 +95,7 @@ def test_the_bus_lists_each_connection(talking: Graph) -> None:
     protocol = talking.transport.transports[0].protocol
     code, status, rows = call(talking, "/talker", "getBusInfo")
     assert (code, status) == (1, "bus info")
-    assert [row[1:6] for row in rows if row[4] == "/chatter"] == [
-        ["/listener", "o", protocol, "/chatter", True]
-    ]
+    assert [row[1:6] for row in rows if row[4] == "/chatter"] == [["/listener", "o", protocol, "/chatter", True]]
     (row,) = call(talking, "/listener", "getBusInfo")[2][1:] or [None]
     assert row[1] == talking.master.lookupNode("/test", "/talker")[2]
     assert row[2:6] == ["i", protocol, "/chatter", True]
@@ -231,14 +225,7 @@ def test_a_thread_that_reads_a_wire_is_answered_while_a_callback_computes() -> N
     def ping() -> None:
         computing.wait(PATIENCE)
         call = node.slave_call
-        for method in (
-            "getPid",
-            "getBusInfo",
-            "getBusStats",
-            "getPublications",
-            "getSubscriptions",
-            "getMasterUri",
-        ):
+        for method in ("getPid", "getBusInfo", "getBusStats", "getPublications", "getSubscriptions", "getMasterUri"):
             answers[method] = call(method, "/wire")
         answers["requestTopic"] = call("requestTopic", "/wire", "/rosout", [["INPROC"]])
         answers["paramUpdate"] = call("paramUpdate", "/master", "/speed/", 2)
@@ -248,9 +235,7 @@ def test_a_thread_that_reads_a_wire_is_answered_while_a_callback_computes() -> N
         answered.set()
 
     node.on_param("/speed", changed.append)
-    graph.master.setParam(
-        "/busy", "/speed", 2
-    )  # the Master spares the one who set it: the wire has to say so
+    graph.master.setParam("/busy", "/speed", 2)  # the Master spares the one who set it: the wire has to say so
     node.subscriber("work", String, compute)
     publisher = talker.publisher("work", String)
     publisher.wait_for_subscribers()

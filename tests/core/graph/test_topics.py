@@ -230,11 +230,7 @@ def test_what_a_subscriber_does_to_its_message_other_nodes_do_not_see(
         graph.node("late").subscriber("joints", JointState, heard.append, numpy=not vandal_takes_arrays)
         until(graph, lambda: len(heard) == 2)
     for each in [*heard, message]:
-        assert (each.header.frame_id, each.name, list(each.position)) == (
-            "base_link",
-            ["left", "right"],
-            [1.0, 2.0],
-        )
+        assert (each.header.frame_id, each.name, list(each.position)) == ("base_link", ["left", "right"], [1.0, 2.0])
 
 
 @pytest.mark.parametrize("late", [True, False])
@@ -322,9 +318,7 @@ def test_topics_connect_by_md5_sum_and_give_each_end_its_own_type(graph: Graph) 
     assert node.publisher("u", Vector3).message_class is Point
     node.subscriber("u", Vector3, heard.append)
     node.subscriber("u", Point, heard.append)
-    with pytest.raises(
-        TypeMismatch, match="already subscribes to /u as geometry_msgs/Vector3, not std_msgs/String"
-    ):
+    with pytest.raises(TypeMismatch, match="already subscribes to /u as geometry_msgs/Vector3, not std_msgs/String"):
         node.subscriber("u", String)
 
 
@@ -453,9 +447,7 @@ def test_a_subscribers_queue_drops_the_oldest_while_its_callback_blocks(graph: G
 def test_a_subscribers_queue_drops_nothing_of_a_burst_that_its_callback_keeps_up_with() -> None:
     heard: list[int] = []
     with Graph() as graph:
-        graph.node("listener").subscriber(
-            "n", Int32, lambda message: heard.append(message.data), queue_size=1
-        )
+        graph.node("listener").subscriber("n", Int32, lambda message: heard.append(message.data), queue_size=1)
         publisher = connected(graph.node("talker"), "n", Int32)
         for number in range(100):
             publisher.publish(number)
@@ -758,9 +750,7 @@ LONG_ENOUGH = LONG
 
 def test_wait_for_message_gives_up_and_says_who_publishes(graph: Graph) -> None:
     node = graph.node("listener")
-    with pytest.raises(
-        ROSException, match=r"after 1 s while waiting for a message on /t: nobody publishes it"
-    ):
+    with pytest.raises(ROSException, match=r"after 1 s while waiting for a message on /t: nobody publishes it"):
         node.wait_for_message("t", String, timeout=1.0)
     graph.node("talker").publisher("t", String)
     with pytest.raises(ROSException, match="/talker publishes it"):
@@ -770,9 +760,7 @@ def test_wait_for_message_gives_up_and_says_who_publishes(graph: Graph) -> None:
 
 def test_waiting_for_what_can_never_come_ends_in_simulated_time(simulated: Graph) -> None:
     node = simulated.node("listener")
-    simulated.node("other").run(
-        lambda: simulated.nodes["/other"].wait_for_message("b", String), name="main of other"
-    )
+    simulated.node("other").run(lambda: simulated.nodes["/other"].wait_for_message("b", String), name="main of other")
     with pytest.raises(GraphEnded) as caught:
         node.wait_for_message("t", String)
     text = str(caught.value)
@@ -786,9 +774,7 @@ def test_waiting_for_what_can_never_come_ends_in_simulated_time(simulated: Graph
 
 def test_publishing_a_message_of_another_type(graph: Graph) -> None:
     publisher = graph.node("talker").publisher("t", String)
-    with pytest.raises(
-        TypeError, match=r"/t carries std_msgs/String, and publish\(\) was given a std_msgs/Int32"
-    ):
+    with pytest.raises(TypeError, match=r"/t carries std_msgs/String, and publish\(\) was given a std_msgs/Int32"):
         publisher.publish(Int32(1))
 
 
@@ -821,13 +807,9 @@ def test_one_node_cannot_use_a_topic_with_two_types(graph: Graph) -> None:
     node = graph.node("node")
     node.publisher("t", String)
     node.subscriber("s", String)
-    with pytest.raises(
-        TypeMismatch, match=r"/node already publishes /t as std_msgs/String, not std_msgs/Int32"
-    ):
+    with pytest.raises(TypeMismatch, match=r"/node already publishes /t as std_msgs/String, not std_msgs/Int32"):
         node.publisher("t", Int32)
-    with pytest.raises(
-        TypeMismatch, match=r"/node already subscribes to /s as std_msgs/String, not std_msgs/Int32"
-    ):
+    with pytest.raises(TypeMismatch, match=r"/node already subscribes to /s as std_msgs/String, not std_msgs/Int32"):
         node.subscriber("s", Int32)
 
 
@@ -854,9 +836,7 @@ def test_types_that_differ_are_an_error_where_the_graph_is_driven(
     settle(graph)
 
 
-def test_types_that_differ_are_logged_at_both_ends(
-    lenient: Graph, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_types_that_differ_are_logged_at_both_ends(lenient: Graph, capsys: pytest.CaptureFixture[str]) -> None:
     logs: list[Any] = []
     lenient.node("watcher").subscriber("/rosout", lenient.log_class, logs.append)
     talker, listener = lenient.node("talker"), lenient.node("listener")

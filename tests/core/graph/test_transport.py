@@ -116,9 +116,7 @@ def test_a_service_call_over_a_transport_that_raises_ends(monkeypatch: pytest.Mo
         raise OSError("the cable is cut")
 
     monkeypatch.setattr(AddTwoInts._request_class, "_read", fail)
-    with pytest.raises(
-        ServiceException, match="transport error completing service call: OSError: the cable is cut"
-    ):
+    with pytest.raises(ServiceException, match="transport error completing service call: OSError: the cable is cut"):
         client(1, 2)
     monkeypatch.undo()
     close(graph)

@@ -38,8 +38,7 @@ def write(tmp_path):
         lines = FIELDS | {"image": file} | ({"mode": mode} if mode else {}) | fields
         path = tmp_path / "map.yaml"
         path.write_text(
-            "".join(f"{name}: {value}\n" for name, value in lines.items() if value is not None),
-            encoding="utf-8",
+            "".join(f"{name}: {value}\n" for name, value in lines.items() if value is not None), encoding="utf-8"
         )
         return path
 
@@ -282,9 +281,7 @@ def test_a_map_is_small_plain_yaml(tmp_path, text, said):
         load_map(tmp_path / "map.yaml")
 
 
-@pytest.mark.parametrize(
-    "field", ["resolution", "occupied_thresh", "free_thresh", "negate", "origin", "image"]
-)
+@pytest.mark.parametrize("field", ["resolution", "occupied_thresh", "free_thresh", "negate", "origin", "image"])
 @pytest.mark.parametrize(
     "value",
     [
@@ -319,9 +316,7 @@ def test_what_is_no_number_and_no_name_is_told_with_its_line(write, field, value
 def test_an_image_is_looked_at_before_it_is_read(write, tmp_path, data):
     path = write([[0, 255]])
     (tmp_path / "map.png").write_bytes(data)
-    with pytest.raises(
-        MapError, match=r"map\.yaml:\d: the field 'image' names .*map\.png, which cannot be read: "
-    ):
+    with pytest.raises(MapError, match=r"map\.yaml:\d: the field 'image' names .*map\.png, which cannot be read: "):
         load_map(path)
 
 
@@ -360,11 +355,7 @@ def test_odd_fields_are_read_as_map_server_reads_them(write, fields, wanted):
     ("fields", "wanted", "said"),
     [
         # occupied is asked first
-        (
-            {"free_thresh": "0.7", "occupied_thresh": "0.3"},
-            [100, 100, 0],
-            r"\(0.3\) is below free_thresh \(0.7\)",
-        ),
+        ({"free_thresh": "0.7", "occupied_thresh": "0.3"}, [100, 100, 0], r"\(0.3\) is below free_thresh \(0.7\)"),
         ({"occupied_thresh": "65"}, [-1, -1, 0], r"occupied_thresh \(65\) .* no cells can be occupied"),
         ({"free_thresh": "-0.1"}, [100, -1, -1], r"free_thresh \(-0.1\) .* no cells can be free"),
         ({"free_thresh": "19.6", "occupied_thresh": "65"}, [0, 0, 0], "no cells can be occupied"),

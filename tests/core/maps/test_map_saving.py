@@ -15,9 +15,7 @@ from rosmini.core.maps import GridMap, MapError, load_map, save_map
 sides = st.integers(1, 2_000_000).map(lambda n: n / 1e6)
 places = st.integers(-90_000_000, 90_000_000).map(lambda n: n / 1e6)
 turns = st.integers(-3_141_592, 3_141_592).map(lambda n: n / 1e6)
-trinary = arrays(
-    np.int8, array_shapes(min_dims=2, max_dims=2, max_side=9), elements=st.sampled_from([0, 100, -1])
-)
+trinary = arrays(np.int8, array_shapes(min_dims=2, max_dims=2, max_side=9), elements=st.sampled_from([0, 100, -1]))
 
 
 @given(trinary.filter(lambda cells: (cells >= 0).any()), sides, places, places, turns)
@@ -42,9 +40,7 @@ def test_the_files_are_those_of_map_saver(tmp_path, monkeypatch):
         "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n\n"
     )
     # the first row of the image is the upper one
-    assert paths[1].read_bytes() == b"P5\n# CREATOR: map_saver.cpp 0.050 m/pix\n2 2\n255\n" + bytes(
-        [205, 254, 254, 0]
-    )
+    assert paths[1].read_bytes() == b"P5\n# CREATOR: map_saver.cpp 0.050 m/pix\n2 2\n255\n" + bytes([205, 254, 254, 0])
 
 
 def test_thresholds_decide_what_is_occupied_and_free(tmp_path):

@@ -175,9 +175,7 @@ def test_filters_of_filters(sim):
         def __init__(self, source):
             super().__init__()
             self.node = source.node
-            source.registerCallback(
-                lambda message: self.signalMessage(at(message.header.stamp.to_sec() + 1, "later"))
-            )
+            source.registerCallback(lambda message: self.signalMessage(at(message.header.stamp.to_sec() + 1, "later")))
 
     first, second = (Subscriber(node, topic, PointStamped) for topic in "ab")
     synchroniser = TimeSynchronizer([Cache(Later(first), 3), second], 3)

@@ -62,9 +62,7 @@ def test_exact_sets_increase_and_none_is_missed_where_inputs_are_in_order(given_
     ordered = in_order(story, 1)
     sets = told(ExactTime(count, 100), ordered)
     stamps = [one[0][1] for one in sets]
-    common = set.intersection(
-        *({stamp for other, stamp in ordered if other == index} for index in range(count))
-    )
+    common = set.intersection(*({stamp for other, stamp in ordered if other == index} for index in range(count)))
     assert stamps == sorted(common)
 
 
@@ -103,9 +101,7 @@ def test_no_set_is_possible_any_more_that_was_complete_when_its_last_message_cam
         if policy.add(index, stamp, number) or stamp not in policy.queues[index]:
             continue
         others = [[stamp] if other == index else list(queue) for other, queue in enumerate(policy.queues)]
-        assert not any(
-            max(combination) - min(combination) < slop for combination in itertools.product(*others)
-        )
+        assert not any(max(combination) - min(combination) < slop for combination in itertools.product(*others))
 
 
 def test_the_nearest_partner_is_taken():

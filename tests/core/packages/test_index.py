@@ -31,16 +31,12 @@ MANIFEST = """<?xml version="1.0"?>
 {more}</package>
 """
 
-posix_only = pytest.mark.skipif(
-    os.name == "nt", reason="Windows has no run bit, and links need a privilege there"
-)
+posix_only = pytest.mark.skipif(os.name == "nt", reason="Windows has no run bit, and links need a privilege there")
 
 
 def make(folder: Path, name: str, version: str = "1.2.3", more: str = "") -> Path:
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "package.xml").write_text(
-        MANIFEST.format(name=name, version=version, more=more), encoding="utf-8"
-    )
+    (folder / "package.xml").write_text(MANIFEST.format(name=name, version=version, more=more), encoding="utf-8")
     return folder
 
 
@@ -114,9 +110,7 @@ def test_manifests_name_the_packages_whose_types_they_use(own: PackageIndex) -> 
         needed = used - {name} | {"message_generation", "message_runtime"}
         assert needed <= set(package.depends), name
         has_plugins = "<nav_core " in (package.path / "package.xml").read_text(encoding="utf-8")
-        if (
-            not built_in_nodes(name) and not scripts(package.path) and not has_plugins
-        ):  # these need more than types do
+        if not built_in_nodes(name) and not scripts(package.path) and not has_plugins:  # these need more than types do
             assert set(package.depends) == needed, name
 
 
@@ -132,14 +126,10 @@ def test_every_manifest_of_the_core_can_be_read_and_names_what_is_known() -> Non
 def test_rospkg_finds_the_same_packages(own: PackageIndex) -> None:
     theirs = rospkg.RosPack([str(assets_dir() / "ros")])
     assert own.names() == sorted(theirs.list())
-    assert {name: str(own.path(name)) for name in own.names()} == {
-        n: theirs.get_path(n) for n in theirs.list()
-    }
+    assert {name: str(own.path(name)) for name in own.names()} == {n: theirs.get_path(n) for n in theirs.list()}
 
 
-def test_assets_come_last_and_a_workspace_overlays_them(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_assets_come_last_and_a_workspace_overlays_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     overlay = make(tmp_path / "ws" / "src" / "turtlesim", "turtlesim", version="9.9.9")
     monkeypatch.setenv("ROS_PACKAGE_PATH", os.pathsep.join([str(tmp_path / "gone"), str(tmp_path / "ws")]))
     assert search_paths() == (tmp_path / "gone", tmp_path / "ws", assets_dir() / "ros", assets_dir() / "core")
@@ -159,9 +149,7 @@ def test_assets_are_found_in_a_checkout_and_in_an_installed_wheel(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, root: Path
 ) -> None:
     assert assets_dir() == root / "assets"
-    monkeypatch.setattr(
-        folders, "__file__", str(tmp_path / "site" / "rosmini" / "core" / "packages" / "folders.py")
-    )
+    monkeypatch.setattr(folders, "__file__", str(tmp_path / "site" / "rosmini" / "core" / "packages" / "folders.py"))
     with pytest.raises(RosminiError, match="install rosmini again"):
         assets_dir()
     (tmp_path / "site" / "rosmini" / "_assets").mkdir(parents=True)
@@ -269,12 +257,7 @@ def test_an_unknown_package_names_the_folders_and_the_nearest(tmp_path: Path) ->
 
 def test_what_it_needs_to_run_comes_in_the_order_of_rospack(own: PackageIndex) -> None:
     # $ rospack depends1 gazebo_msgs, of real ROS on this manifest
-    assert own.find("gazebo_msgs").exec_depends == (
-        "message_runtime",
-        "geometry_msgs",
-        "std_msgs",
-        "trajectory_msgs",
-    )
+    assert own.find("gazebo_msgs").exec_depends == ("message_runtime", "geometry_msgs", "std_msgs", "trajectory_msgs")
 
 
 # ---- broken manifests ----
@@ -291,9 +274,7 @@ def test_what_it_needs_to_run_comes_in_the_order_of_rospack(own: PackageIndex) -
         ('<?xml version="1.0" encoding="nonsense-8"?>\n<package/>', 1, "XML"),
     ],
 )
-def test_a_manifest_that_cannot_be_read_names_file_and_line(
-    tmp_path: Path, text: str, line: int, says: str
-) -> None:
+def test_a_manifest_that_cannot_be_read_names_file_and_line(tmp_path: Path, text: str, line: int, says: str) -> None:
     manifest = write(tmp_path / "p" / "package.xml", text)
     index = PackageIndex([tmp_path])
     with pytest.raises(DefinitionError, match=says) as caught:
@@ -328,11 +309,7 @@ def test_a_broken_manifest_hides_no_other_package(tmp_path: Path) -> None:
 def test_a_manifest_against_the_rules_names_what_is_at_fault(
     tmp_path: Path, old: str, new: str, line: int, says: str
 ) -> None:
-    text = (
-        MANIFEST.format(name="p", version="1.0.0", more="")
-        .replace(old, new)
-        .replace('format="2"', 'format="3"')
-    )
+    text = MANIFEST.format(name="p", version="1.0.0", more="").replace(old, new).replace('format="2"', 'format="3"')
     manifest = write(tmp_path / "p" / "package.xml", text)
     index = PackageIndex([tmp_path])
     with pytest.raises(DefinitionError, match=says) as caught:
@@ -349,9 +326,7 @@ PIECES = st.one_of(
 
 
 @given(data=st.binary(max_size=200))
-def test_no_bytes_in_a_manifest_raise_anything_else(
-    data: bytes, tmp_path_factory: pytest.TempPathFactory
-) -> None:
+def test_no_bytes_in_a_manifest_raise_anything_else(data: bytes, tmp_path_factory: pytest.TempPathFactory) -> None:
     folder = tmp_path_factory.mktemp("fuzz") / "p"
     folder.mkdir()
     (folder / "package.xml").write_bytes(data)
@@ -487,9 +462,7 @@ def test_built_in_nodes_come_from_entry_points(
 @pytest.fixture
 def old(tmp_path: Path) -> PackageIndex:
     """A stack with a package of rosbuild in it."""
-    stack = write(
-        tmp_path / "arms" / "stack.xml", '<stack><version>0.3.0</version><depend stack="legs"/></stack>'
-    )
+    stack = write(tmp_path / "arms" / "stack.xml", '<stack><version>0.3.0</version><depend stack="legs"/></stack>')
     write(
         stack.parent / "elbow" / "manifest.xml",
         '<package><description brief="x">An\nelbow</description><author>me</author><license>BSD</license>'
@@ -505,9 +478,7 @@ def test_packages_and_stacks_of_rosbuild_are_named_as_their_folders(old: Package
     assert (package.depends, package.exec_depends) == (("bone", "shoulder"), ("shoulder", "bone"))
     assert (package.version, package.description) == ("", "An elbow")
     assert package.manifest.name == "manifest.xml"
-    assert [(each.tag, each.get("cflags"), each.get("x")) for each in package.exports] == [
-        ("cpp", "-I${prefix}", None)
-    ]
+    assert [(each.tag, each.get("cflags"), each.get("x")) for each in package.exports] == [("cpp", "-I${prefix}", None)]
     stack = old.find_stack("arms")
     assert (stack.version, stack.depends, stack.path.name) == ("0.3.0", ("legs",), "arms")
     with pytest.raises(UnknownPackage, match=r"did you mean arms\?"):
@@ -524,9 +495,7 @@ def test_packages_and_stacks_of_rosbuild_are_named_as_their_folders(old: Package
         ("stack.xml", '<!DOCTYPE a [<!ENTITY b "c">]><stack>&b;</stack>', "may not define or use entities"),
     ],
 )
-def test_broken_manifests_of_rosbuild_are_told_with_their_line(
-    tmp_path: Path, name: str, text: str, says: str
-) -> None:
+def test_broken_manifests_of_rosbuild_are_told_with_their_line(tmp_path: Path, name: str, text: str, says: str) -> None:
     write(tmp_path / "old" / name, text)
     index = PackageIndex([tmp_path])
     with pytest.raises(DefinitionError, match=says) as caught:

@@ -28,8 +28,7 @@ STACK = '<stack><depend stack="legs"/></stack>'
 def a_workspace(folder: Path) -> Path:
     """Packages of both times, a metapackage, a stack, and a package that is not named as its folder."""
     files = {
-        f"{name}/package.xml": PACKAGE.format(name=name, format=' format="2"', tags=tags)
-        for name, tags in TAGS.items()
+        f"{name}/package.xml": PACKAGE.format(name=name, format=' format="2"', tags=tags) for name, tags in TAGS.items()
     }
     tags = "<build_depend>gamma</build_depend><run_depend>alpha</run_depend>"
     files["other_folder/package.xml"] = PACKAGE.format(name="renamed", format="", tags=tags)

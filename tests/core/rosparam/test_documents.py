@@ -23,9 +23,7 @@ scalars = (
     | st.binary(max_size=5)
 )
 values = st.recursive(
-    scalars,
-    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(names, inner, max_size=3),
-    max_leaves=8,
+    scalars, lambda inner: st.lists(inner, max_size=3) | st.dictionaries(names, inner, max_size=3), max_leaves=8
 )
 
 
@@ -117,14 +115,7 @@ def test_a_dictionary_becomes_one_setting_for_each_value() -> None:
         ("a: 2026-13-45\n", r"p\.yaml:1: this is not YAML: .*2026-13-45.* is no timestamp: month"),
         *(
             (f"a: {value}\n", r"p\.yaml:1: this is not YAML")
-            for value in (
-                "!!float ''",
-                "!!int ''",
-                "!!int '-'",
-                "!!bool maybe",
-                "!!timestamp 1",
-                "[!!float '']",
-            )
+            for value in ("!!float ''", "!!int ''", "!!int '-'", "!!bool maybe", "!!timestamp 1", "[!!float '']")
         ),
     ],
 )
@@ -136,10 +127,7 @@ def test_what_cannot_be_read_is_named_with_its_line(text: str, message: str) -> 
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (
-            "a: 1\nb:\n  c:\n  d: 2\n",
-            r"p\.yaml:3: parameter /r/b/c has no value .* write '' for an empty text",
-        ),
+        ("a: 1\nb:\n  c:\n  d: 2\n", r"p\.yaml:3: parameter /r/b/c has no value .* write '' for an empty text"),
         ("a: 1\nb: [1,\n  2, 4294967296]\n", r"p\.yaml:3: parameter /r/b\[2\]: 4294967296 does not fit"),
         ("a:\n  1: one\n", r"p\.yaml:2: parameter /r/a: the key 1 is a int, and keys are strings"),
         ("a: 1\nb: [{c: 1}, {2: 1}]\n", r"p\.yaml:2: parameter /r/b\[1\]: the key 2 is not a string"),
@@ -155,9 +143,7 @@ def test_what_the_server_cannot_hold_is_named_with_its_line(text: str, message: 
 
 def test_the_root_is_a_dictionary() -> None:
     (document,) = load_str("- 1\n- 2\n", "p.yaml")
-    with pytest.raises(
-        RosParamException, match=r"p\.yaml:1: the root .* is a dictionary, and this is a list"
-    ):
+    with pytest.raises(RosParamException, match=r"p\.yaml:1: the root .* is a dictionary, and this is a list"):
         document.assignments()
 
 

@@ -149,10 +149,7 @@ def test_clouds(graph):
     cloud = message_class("sensor_msgs/PointCloud2")(
         height=1,
         width=2,
-        fields=[
-            field(name=name, offset=4 * at, datatype=7, count=1)
-            for at, name in enumerate(["x", "y", "z", "i"])
-        ],
+        fields=[field(name=name, offset=4 * at, datatype=7, count=1) for at, name in enumerate(["x", "y", "z", "i"])],
         point_step=16,
         row_step=32,
         data=struct.pack("<8f", 1, 2, 3, 9, 4, 5, 6, 8),

@@ -12,11 +12,7 @@ def content(samples, history):
     """What is in the arrays for one frame."""
     begin, end = samples.spans[3 * history.number : 3 * history.number + 2]
     return [
-        (
-            samples.stamps[place],
-            samples.source_of(samples.origins[place]).authority,
-            sample(samples.values, place)[0],
-        )
+        (samples.stamps[place], samples.source_of(samples.origins[place]).authority, sample(samples.values, place)[0])
         for place in range(begin, end)
     ]
 

@@ -65,11 +65,7 @@ def test_it_waits_for_each_frame_and_for_the_tolerance(buffer):
 def test_the_oldest_goes_when_too_many_wait(buffer):
     failed = []
     waiting = MessageFilter(
-        buffer,
-        ["odom"],
-        list,
-        queue_size=2,
-        failed=lambda m, why: failed.append((m.header.stamp.to_sec(), why)),
+        buffer, ["odom"], list, queue_size=2, failed=lambda m, why: failed.append((m.header.stamp.to_sec(), why))
     )
     for seconds in (1.0, 2.0, 3.0):
         waiting.add(scan(seconds))

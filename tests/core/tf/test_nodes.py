@@ -18,9 +18,7 @@ def graph():
 
 
 def test_tf2s_static_transform_publisher(graph, capsys):
-    rosrun(
-        "tf2_ros", "static_transform_publisher", *TIP, "base", "laser", "__name:=tip", graph=graph
-    ).instance()
+    rosrun("tf2_ros", "static_transform_publisher", *TIP, "base", "laser", "__name:=tip", graph=graph).instance()
     assert "Spinning until killed publishing base to laser" in capsys.readouterr().out
     graph.run(1)
     buffer = TransformListener(graph.node("late")).buffer
@@ -37,10 +35,7 @@ def test_tf2s_static_transform_publisher(graph, capsys):
 def test_tf2s_static_transform_publisher_reads_a_parameter(graph):
     node = graph.node("looker")
     buffer = TransformListener(node).buffer
-    pose = {
-        "translation": {"x": 0.5, "y": -1, "z": 0.0},
-        "rotation": {"x": 0.0, "y": 0.0, "z": 1.0, "w": 0.0},
-    }
+    pose = {"translation": {"x": 0.5, "y": -1, "z": 0.0}, "rotation": {"x": 0.0, "y": 0.0, "z": 1.0, "w": 0.0}}
     node.set_param("/camera", {"header": {"frame_id": "base"}, "child_frame_id": "lens", "transform": pose})
     rosrun("tf2_ros", "static_transform_publisher", "camera", graph=graph).instance()
     graph.run(1)
@@ -114,12 +109,8 @@ def test_tf_echo_of_what_is_not_there(graph, capsys):
 
 
 def test_tf_monitor(graph, capsys):
-    rosrun(
-        "tf", "static_transform_publisher", *TIP, "map", "base", "100", "__name:=a", graph=graph
-    ).instance()
-    rosrun(
-        "tf2_ros", "static_transform_publisher", *TIP, "base", "laser", "__name:=b", graph=graph
-    ).instance()
+    rosrun("tf", "static_transform_publisher", *TIP, "map", "base", "100", "__name:=a", graph=graph).instance()
+    rosrun("tf2_ros", "static_transform_publisher", *TIP, "base", "laser", "__name:=b", graph=graph).instance()
     monitor = rosrun("tf", "tf_monitor", graph=graph).instance()
     graph.run(2.05)
     capsys.readouterr()
@@ -135,17 +126,14 @@ def test_tf_monitor(graph, capsys):
     rosrun("tf", "tf_monitor", "map", "laser", "__name:=m", graph=graph).instance()
     graph.run(1.5)
     assert (
-        "RESULTS: for map to laser\nChain is: map -> base -> laser\nNet delay     avg = -0.1"
-        in capsys.readouterr().out
+        "RESULTS: for map to laser\nChain is: map -> base -> laser\nNet delay     avg = -0.1" in capsys.readouterr().out
     )
     with pytest.raises(ScriptError, match="two frames make a chain"):
         rosrun("tf", "tf_monitor", "map", "__name:=n", graph=graph).instance()
 
 
 def test_view_frames(graph, capsys, tmp_path):
-    rosrun(
-        "tf", "static_transform_publisher", *TIP, "map", "base", "100", "__name:=a", graph=graph
-    ).instance()
+    rosrun("tf", "static_transform_publisher", *TIP, "map", "base", "100", "__name:=a", graph=graph).instance()
     viewed = rosrun("tf", "view_frames", str(tmp_path), graph=graph).instance()
     assert capsys.readouterr().out == (
         "Listening to /tf for 5.0 seconds\nDone Listening\nframes.gv and frames.svg generated\n"

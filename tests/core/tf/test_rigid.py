@@ -82,10 +82,7 @@ def test_interpolation_begins_and_ends_at_its_bounds(a, b):
 
 @given(angles, st.floats(-1.5, 1.5), angles)
 def test_roll_pitch_yaw_and_back(roll, pitch, yaw):
-    assert same(
-        from_rpy((1, 2, 3), *rpy(from_rpy((0, 0, 0), roll, pitch, yaw))),
-        from_rpy((1, 2, 3), roll, pitch, yaw),
-    )
+    assert same(from_rpy((1, 2, 3), *rpy(from_rpy((0, 0, 0), roll, pitch, yaw))), from_rpy((1, 2, 3), roll, pitch, yaw))
 
 
 @pytest.mark.parametrize("pitch", [math.pi / 2, -math.pi / 2])
@@ -97,15 +94,11 @@ def test_straight_up_and_down(pitch):
 
 def test_numbers_by_hand():
     quarter = from_yaw(1, 2, math.pi / 2)
-    assert transform_points(quarter, [[1, 0, 0], [0, 0, 5]]) == pytest.approx(
-        np.array([[1, 3, 0], [1, 2, 5]])
-    )
+    assert transform_points(quarter, [[1, 0, 0], [0, 0, 5]]) == pytest.approx(np.array([[1, 3, 0], [1, 2, 5]]))
     assert rotate(quarter, [1, 0, 0]) == pytest.approx(np.array([0, 1, 0]))
     assert compose(quarter, quarter)[:3] == pytest.approx((-1, 3, 0))
     # Yaw about the fixed z comes last: x, rolled, pitched down by 90 degrees, points down, and yaw leaves it there.
-    assert rotate(from_rpy((0, 0, 0), 0.4, math.pi / 2, 1.0), [1, 0, 0]) == pytest.approx(
-        np.array([0, 0, -1])
-    )
+    assert rotate(from_rpy((0, 0, 0), 0.4, math.pi / 2, 1.0), [1, 0, 0]) == pytest.approx(np.array([0, 0, -1]))
 
 
 def test_a_quaternion_is_brought_to_length_one_or_refused():

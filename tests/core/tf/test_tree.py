@@ -126,9 +126,7 @@ def test_extrapolation_says_all(tree, time, parts):
 
 
 def test_extrapolation_names_the_edge_at_fault(tree):
-    with pytest.raises(
-        ExtrapolationException, match=r"the edge map -> odom is known from 1\.000 s to 2\.000 s"
-    ):
+    with pytest.raises(ExtrapolationException, match=r"the edge map -> odom is known from 1\.000 s to 2\.000 s"):
         tree.lookup("map", "laser", 5 * S // 2)
     with pytest.raises(ExtrapolationException, match="the edge odom -> base is known"):
         tree.lookup("map", "laser", 3 * S // 2)
@@ -137,9 +135,7 @@ def test_extrapolation_names_the_edge_at_fault(tree):
 def test_one_sample_alone_cannot_be_interpolated():
     tree = FrameTree()
     tree.set("a", "b", rigid(), 1 * S)
-    with pytest.raises(
-        ExtrapolationException, match=r"(?s)only at 1\.000 s \(1 transform\).*send it as a static one"
-    ):
+    with pytest.raises(ExtrapolationException, match=r"(?s)only at 1\.000 s \(1 transform\).*send it as a static one"):
         tree.lookup("a", "b", 2 * S)
 
 
@@ -278,9 +274,7 @@ def test_a_frame_that_changes_its_parent(tree, source_of):
     tree.set("map", "cup", rigid((7, 0, 0)), 3 * S, "/hand")
     assert source_of == []  # a sender may move its own frame
     assert tree.lookup("base", "cup", 2 * S).transform[0] == 1
-    assert (
-        tree.lookup("base", "cup", 2 * S + 1).transform[0] == 1
-    )  # the earlier parent holds until the next sample
+    assert tree.lookup("base", "cup", 2 * S + 1).transform[0] == 1  # the earlier parent holds until the next sample
     assert tree.chain("map", "cup", 3 * S) == ["cup", "map"]
     assert tree.lookup("map", "cup").transform[0] == 7
     for second in range(4, 20):

@@ -78,10 +78,7 @@ class Child:
     def wait(self, condition: Any, what: str) -> None:
         """Wait until a condition holds that this process brings about; what it wrote is in the error."""
         try:
-            wait_until(
-                lambda: condition() or (self.process.poll() is not None and not condition()),
-                what,
-            )
+            wait_until(lambda: condition() or (self.process.poll() is not None and not condition()), what)
             if not condition():
                 raise AssertionError(f"no {what}: its process ended with {self.process.returncode}")
         except AssertionError as error:
@@ -196,12 +193,7 @@ class Peer(Child):
             written = len(self.output)
             self.send(number)
             with suppress(AssertionError):
-                wait_until(
-                    lambda written=written: len(self.output) > written,
-                    "its stacks",
-                    self.process,
-                    patience=5.0,
-                )
+                wait_until(lambda written=written: len(self.output) > written, "its stacks", self.process, patience=5.0)
         return f"--- {self.name} is at:\n{self.output[before:]}"
 
 
@@ -282,9 +274,7 @@ class Stage:
         self.children.append(child)
         return child
 
-    def peer(
-        self, kind: str, name: str, *arguments: str, within: list[str] | None = None, **env: str
-    ) -> Peer:
+    def peer(self, kind: str, name: str, *arguments: str, within: list[str] | None = None, **env: str) -> Peer:
         """Start peer.py with real rospy ("real") or with ours ("ours"), as the node `name`."""
         words: list[Any] = [*arguments, f"__name:={name}"]
         if kind == "real" or ALL_REAL:
@@ -302,9 +292,7 @@ class Stage:
         """
         real = "/usr/bin/rosmaster" if "--core" in arguments else "/usr/bin/roscore"
         words = [real] if kind == "real" or ALL_REAL else [*ROSMINI, "roscore"]
-        child: Child = self.start(
-            f"roscore_{kind}", [*words, "-p", self.port, *arguments], env, within=within
-        )
+        child: Child = self.start(f"roscore_{kind}", [*words, "-p", self.port, *arguments], env, within=within)
         if not within:
             child.wait(self.has_rosout if "--core" not in arguments else self.answers, "a Master")
         return child
@@ -412,10 +400,7 @@ class Stage:
         return self
 
     def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self._stack.close()
         for pid in self.survivors():

@@ -99,9 +99,7 @@ def _space(stack: ExitStack, words: list[str]) -> list[str] | None:
     """Start what holds a new namespace, and return the words that lead there; None if there is none."""
     holder: Any = stack.enter_context(start([*words, *HOLD]))
     name = Path(f"/proc/{holder.pid}/comm")
-    wait_until(
-        lambda: holder.poll() is not None or name.read_text(encoding="utf-8") == "sleep\n", "a namespace"
-    )
+    wait_until(lambda: holder.poll() is not None or name.read_text(encoding="utf-8") == "sleep\n", "a namespace")
     if holder.poll() is not None:
         return None
     user = [] if os.geteuid() == 0 else ["--user", "--preserve-credentials"]

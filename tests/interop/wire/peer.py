@@ -80,9 +80,7 @@ def subscribe(topic, type="*", what="message", **options):
         "size": lambda message: [len(message.data), len(set(message.data))],
         "x": lambda message: message.pose.pose.position.x,
     }[what]
-    subscribers[topic] = rospy.Subscriber(
-        topic, cls, lambda message: heard[topic].append(look(message)), **options
-    )
+    subscribers[topic] = rospy.Subscriber(topic, cls, lambda message: heard[topic].append(look(message)), **options)
 
 
 def unsubscribe(topic):

@@ -55,9 +55,7 @@ def test_rosbag_play_drives_the_clock(core: Stage, simulated: tuple[Peer, Peer])
     core.tool(SYSTEM_PYTHON, "-c", BAG, str(file))
     for peer in simulated:
         peer.ask("subscribe", "/bagged", "std_msgs/Int32")
-    play = core.play(
-        ["rosbag", "play", "--clock", "--wait-for-subscribers", "-r", "20", file], "/bagged", simulated
-    )
+    play = core.play(["rosbag", "play", "--clock", "--wait-for-subscribers", "-r", "20", file], "/bagged", simulated)
     for peer in simulated:
         assert [message["data"] for message in peer.ask("hear", "/bagged", 3)] == [1, 2, 3]
     assert play.ended() == 0

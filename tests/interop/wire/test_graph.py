@@ -41,10 +41,7 @@ def test_messages_arrive_in_order_and_complete(core: Stage, first_second: Peers)
     first, second = first_second
     topic = f"/scan{first.node}"
     connect(first, second, topic, "sensor_msgs/LaserScan")
-    scans = [
-        SCAN | {"scan_time": float(number), "header": SCAN["header"] | {"seq": number}}
-        for number in range(1, 21)
-    ]
+    scans = [SCAN | {"scan_time": float(number), "header": SCAN["header"] | {"seq": number}} for number in range(1, 21)]
     first.ask("publish", topic, scans)
     assert second.ask("hear", topic, 20) == scans
     assert core.master("getTopicTypes").count([topic, "sensor_msgs/LaserScan"]) == 1
@@ -80,9 +77,7 @@ def test_the_connection_header_tells_who_publishes_what(first_second: Peers) -> 
     first.ask("publish", topic, ["text"])
     second.ask("subscribe", topic, what="header")  # of any type: md5sum=*
     (header,) = second.ask("hear", topic)
-    assert {
-        key: header[key] for key in ("callerid", "topic", "type", "md5sum", "latching", "message_definition")
-    } == {
+    assert {key: header[key] for key in ("callerid", "topic", "type", "md5sum", "latching", "message_definition")} == {
         "callerid": first.node,
         "topic": topic,
         "type": STRING,
@@ -152,14 +147,7 @@ def test_a_service_that_fails_says_why(first_second: Peers, answer: object, text
 def test_parameters_are_one_tree(first_second: Peers) -> None:
     first, second = first_second
     space = f"/tree{first.node}"
-    values = {
-        "int": -5,
-        "float": 2.5,
-        "text": "käse & <xml>",
-        "flag": True,
-        "list": [1, "two", [3.0]],
-        "empty": {},
-    }
+    values = {"int": -5, "float": 2.5, "text": "käse & <xml>", "flag": True, "list": [1, "two", [3.0]], "empty": {}}
     first.ask("param", "set_param", space, values)
     assert second.ask("param", "get_param", space) == values
     assert second.ask("param", "get_param", f"{space}/text") == values["text"]

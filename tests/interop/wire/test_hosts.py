@@ -26,10 +26,7 @@ pytestmark = pytest.mark.ros
 
 ODOMETRY, FAR = "nav_msgs/Odometry", 0.05
 TELEOP = Path(__file__).parents[3] / "assets/ros/turtlebot3_teleop/nodes/turtlebot3_teleop_key"
-TELEOPS = {
-    "ours": [*ROSMINI, "rosrun", "turtlebot3_teleop", "turtlebot3_teleop_key"],
-    "real": [SYSTEM_PYTHON, TELEOP],
-}
+TELEOPS = {"ours": [*ROSMINI, "rosrun", "turtlebot3_teleop", "turtlebot3_teleop_key"], "real": [SYSTEM_PYTHON, TELEOP]}
 
 
 CHAPTER = Path(__file__).parents[3] / "notebooks/5_turtlesim/40_many_machines.ipynb"
@@ -53,9 +50,7 @@ def hosts() -> Iterator[Hosts]:
 
 
 @pytest.fixture(scope="module")
-def site(
-    hosts: Hosts, request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
-) -> Iterator[Site]:
+def site(hosts: Hosts, request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Site]:
     """A roscore on the first host, ours or the real one."""
     with Site(tmp_path_factory.mktemp(f"hosts_{request.param}"), host=hosts.a.address) as found:
         found.roscore(request.param, within=hosts.a.within)
@@ -128,9 +123,7 @@ def plain(text: str) -> str:
 
 def listings() -> str:
     """The console listings of the chapter Many machines, without times and ports."""
-    text = "\n".join(
-        "".join(cell["source"]) for cell in json.loads(CHAPTER.read_text(encoding="utf-8"))["cells"]
-    )
+    text = "\n".join("".join(cell["source"]) for cell in json.loads(CHAPTER.read_text(encoding="utf-8"))["cells"])
     return plain("\n".join(re.findall(r"^```console\n(.*?)^```", text, re.DOTALL | re.MULTILINE)))
 
 
@@ -157,9 +150,7 @@ def test_one_teleop_drives_two_turtles_as_chapter_63_shows(site: Site, hosts: Ho
     for child in (*turtles, teleop):
         assert as_listed(child.output) in shown
     listed, _ = ask(site, hosts.b, *ROSMINI, "rosnode", "list", "-a")
-    rows = [
-        line for line in as_listed(listed).splitlines() if line.split("/")[-1] in {*TURTLES, "teleop_turtle"}
-    ]
+    rows = [line for line in as_listed(listed).splitlines() if line.split("/")[-1] in {*TURTLES, "teleop_turtle"}]
     assert len(rows) == 3
     assert all(row in shown.splitlines() for row in rows)
     # Both publish on one topic with poses, so its own wall tells where a turtle is: three keys away, of which one that
@@ -173,9 +164,7 @@ def test_one_teleop_drives_two_turtles_as_chapter_63_shows(site: Site, hosts: Ho
 
 
 @pytest.mark.parametrize("kind", ["ours", "real"])
-def test_an_address_that_others_do_not_reach_is_explained(
-    site: Site, hosts: Hosts, watcher: Peer, kind: str
-) -> None:
+def test_an_address_that_others_do_not_reach_is_explained(site: Site, hosts: Hosts, watcher: Peer, kind: str) -> None:
     """The classic: all is listed, and nothing arrives. Our subscriber, our tools and our Master say why."""
     for number, wrong in enumerate(hosts.wrong):
         topic, name = f"/said_{kind}_{number}", f"lost_{kind}_{number}"
@@ -194,9 +183,7 @@ def test_an_address_that_others_do_not_reach_is_explained(
         assert "set ROS_IP there" in said
         if site.kind == "ours" and hosts.are_apart:
             (core,) = (child for child in site.children if child.name == "roscore_ours")
-            core.wait_for(
-                rf"/{name}, on the machine at {host.address}, advertises {lost.uri}.*ROS_IP={host.address}"
-            )
+            core.wait_for(rf"/{name}, on the machine at {host.address}, advertises {lost.uri}.*ROS_IP={host.address}")
         watcher.ask("unsubscribe", topic)
         lost.interrupt()
 
@@ -231,9 +218,7 @@ def test_behind_a_firewall_a_turtle_obeys_and_nobody_hears_it(site: Site, hosts:
     turtle: Child = site.start("walled_turtle", words, {"ROS_IP": hosts.c.address}, within=hosts.c.within)
     turtle.wait_for("Spawning turtle .*\n")
     wait_until(
-        lambda: (
-            "/teleop_turtle" in ask(site, hosts.c, *ROSMINI, "rosnode", "info", "/walled_turtle")[0].split()
-        ),
+        lambda: "/teleop_turtle" in ask(site, hosts.c, *ROSMINI, "rosnode", "info", "/walled_turtle")[0].split(),
         "the turtle to be connected",
     )
     with walled(hosts.c):

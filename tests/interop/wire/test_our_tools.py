@@ -40,9 +40,7 @@ def busy(core: Stage, pair: Peers) -> Peers:
 
 def plain(text: str) -> list[str]:
     """Return the lines of an output without what each look makes differ, sorted: ROS's order is a dictionary's."""
-    return sorted(
-        re.sub(r" \(\d+ - [\w.]+:\d+\) \[\d+\]|time=[\d.]+ms|average: [\d.]+ms", "", text).splitlines()
-    )
+    return sorted(re.sub(r" \(\d+ - [\w.]+:\d+\) \[\d+\]|time=[\d.]+ms|average: [\d.]+ms", "", text).splitlines())
 
 
 @pytest.mark.parametrize(

@@ -96,16 +96,12 @@ def test_a_server_is_killed_and_returns(core: Stage, partners: dict[str, Peer], 
 
 
 @KINDS
-def test_a_stopped_subscriber_does_not_block_the_publisher(
-    core: Stage, partners: dict[str, Peer], kind: str
-) -> None:
+def test_a_stopped_subscriber_does_not_block_the_publisher(core: Stage, partners: dict[str, Peer], kind: str) -> None:
     """What does not go through is dropped, the oldest first; who still listens gets all of it."""
     topic = f"/flood_{kind}"
     writer, awake = partners[OTHER[kind]], partners[kind]
     stopped = core.peer(kind, f"stopped_{kind}").ready()
-    writer.ask(
-        "advertise", topic, STRING, queue_size=5
-    )  # first: rospy has no queue for who connects meanwhile
+    writer.ask("advertise", topic, STRING, queue_size=5)  # first: rospy has no queue for who connects meanwhile
     for reader in (stopped, awake):
         reader.ask("subscribe", topic, STRING, what="size")
     writer.ask("connected", topic, 2)
@@ -124,9 +120,7 @@ def test_a_stopped_subscriber_does_not_block_the_publisher(
 
 
 @KINDS
-def test_a_stopped_publisher_does_not_hang_its_subscribers(
-    core: Stage, partners: dict[str, Peer], kind: str
-) -> None:
+def test_a_stopped_publisher_does_not_hang_its_subscribers(core: Stage, partners: dict[str, Peer], kind: str) -> None:
     """A node that stands answers nobody: the others go on, and connect to it when it wakes."""
     asleep = core.peer(kind, f"asleep_{kind}").ready()
     other = partners[OTHER[kind]]

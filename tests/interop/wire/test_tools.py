@@ -51,9 +51,7 @@ def same(texts: list[str]) -> str:
         plain = re.sub(rf"\b{one}\b", "ONE", re.sub(rf"\b{other}\b", "OTHER", text))
         ports = r" \(\d+ - 127\.0\.0\.1:\d+\) \[\d+\]"
         plain = re.sub(rf"(outbound){ports}", r"\1 (PORT - HOST:PORT) [FD]", plain)
-        plain = re.sub(
-            rf"(inbound){ports}", r"\1", plain
-        )  # as roscpp; rospy does not know its own socket there
+        plain = re.sub(rf"(inbound){ports}", r"\1", plain)  # as roscpp; rospy does not know its own socket there
         plain = re.sub(r"(127\.0\.0\.1|localhost):\d+", "HOST:PORT", plain)
         plain = re.sub(r"Pid: \d+", "Pid: N", plain)
         found.append("\n".join(sorted(plain.splitlines())))
@@ -100,15 +98,9 @@ def test_rostopic_echo_hz_and_bw(core: Stage, busy: Peers) -> None:
         "data": "käse"
     }
     running = [
-        (
-            core.start("hz", ["rostopic", "hz", *(f"{peer.node}/count" for peer in busy)]),
-            r"/ours/count +1?\d\.\d",
-        ),
+        (core.start("hz", ["rostopic", "hz", *(f"{peer.node}/count" for peer in busy)]), r"/ours/count +1?\d\.\d"),
         (core.start("bw", ["rostopic", "bw", "/ours/count"]), r"average: \d+\.\d\dB/s"),
-        (
-            core.start("echo", ["rostopic", "echo", "/ours/count"]),
-            r"data: (\d+)\n---\n(.*\n)*data: \d+\n---\n",
-        ),
+        (core.start("echo", ["rostopic", "echo", "/ours/count"]), r"data: (\d+)\n---\n(.*\n)*data: \d+\n---\n"),
     ]
     for tool, pattern in running:
         tool.wait_for(pattern)
@@ -120,9 +112,7 @@ def test_rostopic_echo_hz_and_bw(core: Stage, busy: Peers) -> None:
 
 def test_rostopic_pub(core: Stage, busy: Peers) -> None:
     for peer in busy:
-        pub = core.start(
-            "pub", ["rostopic", "pub", "-r", "20", f"{peer.node}/inbox", "std_msgs/String", "hello"]
-        )
+        pub = core.start("pub", ["rostopic", "pub", "-r", "20", f"{peer.node}/inbox", "std_msgs/String", "hello"])
         assert peer.ask("hear", f"{peer.node}/inbox", 3)[:3] == [{"data": "hello"}] * 3
         assert pub.interrupt() == 0
         core.wait_for(f"{peer.node}/inbox", "publishers")
@@ -135,9 +125,9 @@ def test_rostopic_pub(core: Stage, busy: Peers) -> None:
 
 def test_rosservice(core: Stage, busy: Peers) -> None:
     listed = core.tool("rosservice", "list").split()
-    assert {
-        f"{peer.node}/{name}" for peer in busy for name in ("get_loggers", "set_logger_level", "set_info")
-    } <= set(listed)
+    assert {f"{peer.node}/{name}" for peer in busy for name in ("get_loggers", "set_logger_level", "set_info")} <= set(
+        listed
+    )
     info = both(core, busy, "rosservice", "info", "{}/set_info")
     assert info.startswith("Node: /ours\nURI: rosrpc://127.0.0.1:")
     assert info.endswith("\nType: sensor_msgs/SetCameraInfo\nArgs: camera_info\n")
@@ -162,11 +152,7 @@ def test_rosparam(core: Stage, busy: Peers) -> None:
     core.tool("rosparam", "delete", "/again")
     assert busy[0].ask("param", "has_param", "/again/text") is False
     listed = core.tool("rosparam", "list").split()
-    assert [name for name in listed if name.startswith("/tool")] == [
-        "/tool/text",
-        "/tool/tree/a",
-        "/tool/tree/b/c",
-    ]
+    assert [name for name in listed if name.startswith("/tool")] == ["/tool/text", "/tool/tree/a", "/tool/tree/b/c"]
     assert {"/rosdistro", "/rosversion", "/run_id"} <= set(listed)
 
 
@@ -179,9 +165,7 @@ def test_rosbag_records_both_and_plays_to_both(core: Stage, busy: Peers) -> None
         other.ask("forget", f"{peer.node}/count")
         other.ask("hear", f"{peer.node}/count", 10)
     assert record.interrupt() == 0
-    wait_until(
-        bag.is_file, "the end of the recorder, which `rosbag record` waits for a quarter of a second only"
-    )
+    wait_until(bag.is_file, "the end of the recorder, which `rosbag record` waits for a quarter of a second only")
     info = core.tool("rosbag", "info", "-y", str(bag))
     found = {topic["topic"]: topic for topic in yaml.safe_load(info)["topics"]}
     assert {name: (found[name]["type"]) for name in topics} == {
@@ -228,9 +212,7 @@ def test_what_rqt_graph_asks(core: Stage, busy: Peers) -> None:
 def test_roswtf_finds_nothing_wrong(core: Stage, busy: Peers) -> None:
     _, online = core.tool("roswtf").split("Beginning tests of your ROS graph.")
     assert "ERROR" not in online, online
-    assert re.findall(r"The following .*", online) == ["The following node subscriptions are unconnected:"], (
-        online
-    )
+    assert re.findall(r"The following .*", online) == ["The following node subscriptions are unconnected:"], online
 
 
 def test_rosnode_kill_and_cleanup(core: Stage, busy: Peers) -> None:
@@ -260,9 +242,7 @@ def test_a_cpp_node_between_ours_and_ours(core: Stage, busy: Peers) -> None:
     ours.ask("subscribe", "/relayed", "std_msgs/String")
     relay = core.start("relay", ["/usr/lib/topic_tools/relay", "/ours/latched", "/relayed"])
     assert ours.ask("hear", "/relayed")[0] == {"data": "käse"}
-    throttle = core.start(
-        "throttle", ["/usr/lib/topic_tools/throttle", "messages", "/ours/count", "5", "/slow"]
-    )
+    throttle = core.start("throttle", ["/usr/lib/topic_tools/throttle", "messages", "/ours/count", "5", "/slow"])
     ours.ask("subscribe", "/slow", "std_msgs/Int32")
     ours.ask("hear", "/slow", 2)
     (name,) = core.who("/relayed", "publishers")

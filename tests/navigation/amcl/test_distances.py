@@ -49,12 +49,10 @@ def test_a_beam_ends_where_nothing_is_known_too():
     occupied, free = np.zeros((10, 10), dtype=bool), np.ones((10, 10), dtype=bool)
     free[:, 6] = False
     field = LikelihoodField(occupied, 0.1, (0.0, 0.0), free=free)
-    assert field.ranges(np.array([[0.25, 0.5, 0.0]]), np.array([0.0]), 5.0)[0, 0] == pytest.approx(
-        0.35, abs=5e-5
-    )
-    assert LikelihoodField(occupied, 0.1, (0.0, 0.0)).ranges(
-        np.array([[0.25, 0.5, 0.0]]), np.array([0.0]), 5.0
-    )[0, 0] == pytest.approx(0.75, abs=5e-5)
+    assert field.ranges(np.array([[0.25, 0.5, 0.0]]), np.array([0.0]), 5.0)[0, 0] == pytest.approx(0.35, abs=5e-5)
+    assert LikelihoodField(occupied, 0.1, (0.0, 0.0)).ranges(np.array([[0.25, 0.5, 0.0]]), np.array([0.0]), 5.0)[
+        0, 0
+    ] == pytest.approx(0.75, abs=5e-5)
 
 
 @pytest.mark.parametrize("turn", [0.0, math.pi / 2, math.pi, -math.pi / 2, math.pi / 4])

@@ -29,9 +29,7 @@ def test_the_limit_is_that_of_the_formula(bins):
     found = int(a_filter(1, 10**6).limit(np.array([bins]))[0])
     assert found == math.ceil(formula)
     drawn = np.random.default_rng(1).chisquare(k, 400_000)
-    assert found == pytest.approx(np.quantile(drawn, 0.8389) / 0.02, rel=0.02), (
-        "0.99 is the quantile of 0.8389"
-    )
+    assert found == pytest.approx(np.quantile(drawn, 0.8389) / 0.02, rel=0.02), "0.99 is the quantile of 0.8389"
 
 
 def test_the_limit_stays_in_its_bounds():

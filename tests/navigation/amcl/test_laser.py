@@ -68,13 +68,9 @@ def test_a_laser_that_is_upside_down_sees_its_beams_the_other_way_round(field, k
     upright = scan_from(field, tuple(truth[0]))
     turned = Scan(upright.ranges, -BEARINGS, 5.0, upside_down=True)
     model = LaserModel(kind, max_beams=60)
-    assert model.log_likelihoods(field, truth, turned) == pytest.approx(
-        model.log_likelihoods(field, truth, upright)
-    )
+    assert model.log_likelihoods(field, truth, turned) == pytest.approx(model.log_likelihoods(field, truth, upright))
     backwards = Scan(upright.ranges[::-1], BEARINGS[::-1], 5.0)
-    assert model.log_likelihoods(field, truth, backwards) == pytest.approx(
-        model.log_likelihoods(field, truth, upright)
-    )
+    assert model.log_likelihoods(field, truth, backwards) == pytest.approx(model.log_likelihoods(field, truth, upright))
 
 
 def test_the_density_of_a_beam_is_that_of_the_formula(field):
@@ -102,9 +98,7 @@ def test_beams_that_most_particles_cannot_explain_are_skipped_once_converged(fie
     seen = Scan(people, BEARINGS, 5.0)
     model = LaserModel("likelihood_field_prob", max_beams=60, skip=BeamSkip(0.2, 0.5, 0.9))
     plain = LaserModel("likelihood_field_prob", max_beams=60)
-    assert model.log_likelihoods(field, truth, seen) == pytest.approx(
-        plain.log_likelihoods(field, truth, seen)
-    )
+    assert model.log_likelihoods(field, truth, seen) == pytest.approx(plain.log_likelihoods(field, truth, seen))
     skipped = model.log_likelihoods(field, truth, seen, converged=True)
     rest = Scan(np.delete(scan.ranges, range(12)), np.delete(BEARINGS, range(12)), 5.0)
     assert skipped == pytest.approx(plain.log_likelihoods(field, truth, rest), abs=1e-3)
@@ -115,9 +109,7 @@ def test_beams_that_most_particles_cannot_explain_are_skipped_once_converged(fie
     ), "if nearly all beams would go, none does"
 
 
-@pytest.mark.parametrize(
-    ("count", "beams", "expected"), [(360, 60, 60), (360, 180, 180), (7, 30, 7), (360, 1, 2)]
-)
+@pytest.mark.parametrize(("count", "beams", "expected"), [(360, 60, 60), (360, 180, 180), (7, 30, 7), (360, 1, 2)])
 def test_about_as_many_beams_as_asked_for(count, beams, expected):
     chosen = LaserModel(max_beams=beams).used_beams(count)
     assert expected <= len(range(count)[chosen]) <= 2 * expected

@@ -66,9 +66,7 @@ def test_each_of_two_lasers_has_its_turn():
 
 @pytest.mark.parametrize("kind", ["beam", "likelihood_field", "likelihood_field_prob"])
 def test_it_follows_a_robot(kind):
-    found = localizer(
-        laser_model_type=kind, do_beamskip=True, odom_model_type="diff-corrected", update_min_d=0.1
-    )
+    found = localizer(laser_model_type=kind, do_beamskip=True, odom_model_type="diff-corrected", update_min_d=0.1)
     pose, odometry = (1.0, 1.0, 0.0), (0.0, 0.0, 0.0)
     found.initialize((1.1, 0.9, 0.1), np.diag([0.04, 0.04, 0.02]))
     for _ in range(15):

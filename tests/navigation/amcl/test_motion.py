@@ -44,11 +44,7 @@ def test_the_spread_of_a_robot_that_drives_sideways(model):
     found = samples((0.0, way, turn), model)
     a1, a2, a3, a4, a5 = ALPHAS
     if model == "omni":
-        along, aside, turned = (
-            a3 * way**2 + a1 * turn**2,
-            a1 * turn**2 + a5 * way**2,
-            a4 * turn**2 + a2 * way**2,
-        )
+        along, aside, turned = (a3 * way**2 + a1 * turn**2, a1 * turn**2 + a5 * way**2, a4 * turn**2 + a2 * way**2)
     else:
         along, aside, turned = (
             math.sqrt(a3 * way**2 + a4 * turn**2),
@@ -82,6 +78,4 @@ def test_without_errors_particles_do_as_the_odometry(start, before, after, model
 
 def test_a_model_that_is_none():
     with pytest.raises(RosminiError, match=r"unknown odometry model 'dif'.*diff, omni, diff-corrected"):
-        sample_motion_model(
-            np.zeros((1, 3)), (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), ALPHAS, np.zeros((1, 3)), "dif"
-        )
+        sample_motion_model(np.zeros((1, 3)), (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), ALPHAS, np.zeros((1, 3)), "dif")

@@ -48,9 +48,7 @@ class Robot:
         self.maps = self.node.publisher("map", message_class("nav_msgs/OccupancyGrid"), latch=True)
         self.node.subscriber("amcl_pose", Posed, self.poses.append)
         self.node.subscriber("particlecloud", message_class("geometry_msgs/PoseArray"), self.clouds.append)
-        self.node.subscriber(
-            "/rosout", message_class("rosgraph_msgs/Log"), lambda log: self.said.append(log.msg)
-        )
+        self.node.subscriber("/rosout", message_class("rosgraph_msgs/Log"), lambda log: self.said.append(log.msg))
         self.tf = TransformBroadcaster(self.node)
         if tf:
             StaticTransformBroadcaster(self.node).send("base_link", "laser", (0.0, 0.0, 0.2))
@@ -508,9 +506,7 @@ def test_a_goal_is_reached_with_amcl():
             localization="amcl",
         )
         graph.run(3.0)
-        client = SimpleActionClient(
-            graph.node("client"), "move_base", message_class("move_base_msgs/MoveBaseAction")
-        )
+        client = SimpleActionClient(graph.node("client"), "move_base", message_class("move_base_msgs/MoveBaseAction"))
         graph.run(0.5)
         goal = message_class("move_base_msgs/MoveBaseGoal")()
         goal.target_pose = pose_stamped("map", Time(), (-1.5, 1.0, 0.5))

@@ -6,12 +6,7 @@ import math
 
 import numpy as np
 
-from rosmini.navigation.base_local_planner.goal_functions import (
-    is_stopped,
-    passed_count,
-    slice_in_reach,
-    turn_to_goal,
-)
+from rosmini.navigation.base_local_planner.goal_functions import is_stopped, passed_count, slice_in_reach, turn_to_goal
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
 
 PLAN = np.column_stack([np.arange(0, 10, 0.5), np.zeros(20), np.zeros(20)])

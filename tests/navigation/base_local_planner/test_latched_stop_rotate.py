@@ -60,9 +60,7 @@ def test_the_goal_is_reached_only_at_a_standstill():
 
 
 def test_what_would_touch_something_is_not_commanded():
-    with pytest.raises(
-        ControlFailure, match=r"Rotation cmd in collision: .* turn by 0\.4 rad/s, but obstacle: it"
-    ):
+    with pytest.raises(ControlFailure, match=r"Rotation cmd in collision: .* turn by 0\.4 rad/s, but obstacle: it"):
         command(LatchedStopRotate(), (1, 0, 0), free=False)
     with pytest.raises(ControlFailure, match="Stopping cmd in collision"):
         command(LatchedStopRotate(), (1, 0, 0), [0.5, 0, 0], free=False)

@@ -96,13 +96,7 @@ def test_where_no_way_leads_it_does_not_back_up_either(made):
 def test_old_names_count_and_misspelt_ones_are_told(made, capsys):
     """As navigation_stage's file has them."""
     bench = made(
-        {
-            "max_rotational_vel": 0.7,
-            "acc_lim_th": 2.0,
-            "pdist_scale": 0.3,
-            "acc_limit_x": 1.0,
-            "y_vels": [-0.2, 0.2],
-        }
+        {"max_rotational_vel": 0.7, "acc_lim_th": 2.0, "pdist_scale": 0.3, "acc_limit_x": 1.0, "y_vels": [-0.2, 0.2]}
     )
     p = bench.planner.parameters
     assert (p.max_vel_theta, p.acc_lim_theta, p.path_distance_bias, p.acc_lim_x) == (0.7, 2.0, 0.3, 2.5)

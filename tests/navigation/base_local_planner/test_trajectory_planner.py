@@ -60,9 +60,7 @@ def test_turns_on_the_spot_are_no_slower_than_the_robot_can():
 
 
 def test_it_turns_towards_a_plan_behind_it():
-    _, samples = planned(
-        [(-x, 0.1 * x, 0.0) for x in np.arange(0, 1.4, 0.05)], replace(WHEELS, min_vel_x=0.0)
-    )
+    _, samples = planned([(-x, 0.1 * x, 0.0) for x in np.arange(0, 1.4, 0.05)], replace(WHEELS, min_vel_x=0.0))
     assert samples.commands[samples.best, 0] == 0
     assert samples.commands[samples.best, 2] != 0
 
@@ -115,11 +113,7 @@ def test_it_backs_up_until_it_is_free_again():
 
 def test_heading_scoring_prefers_to_look_at_the_plan():
     p = replace(
-        WHEELS,
-        heading_scoring=True,
-        heading_scoring_timestep=0.8,
-        path_distance_bias=0.0,
-        goal_distance_bias=0.0,
+        WHEELS, heading_scoring=True, heading_scoring_timestep=0.8, path_distance_bias=0.0, goal_distance_bias=0.0
     )
     _, samples = planned(AHEAD, p)
     assert samples.critics[3] == "heading"

@@ -47,7 +47,5 @@ def test_a_robot_that_fits_nowhere_and_a_goal_in_another_frame():
     made, _, _ = planner(CarrotPlanner, np.full((30, 40), 254))
     with pytest.raises(GoalBlocked, match="could not find a valid plan for this goal: on the line from"):
         made.make_plan(pose(0, 0), pose(1, 0))
-    with pytest.raises(
-        PlanningFailure, match="only accept goals in the map frame, but a goal was sent in the odom"
-    ):
+    with pytest.raises(PlanningFailure, match="only accept goals in the map frame, but a goal was sent in the odom"):
         made.make_plan(pose(0, 0), pose(1, 0, frame="odom"))

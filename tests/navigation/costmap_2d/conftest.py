@@ -30,9 +30,7 @@ class Stage:
         self.fixed.send("map", "odom", (0.0, 0.0, 0.0))
         self.moving = TransformBroadcaster(self.robot)
         self.scans = self.robot.publisher("scan", message_class("sensor_msgs/LaserScan"))
-        self.tells = self.robot.timer(
-            0.02, lambda _: self.moving.send_rigid("odom", "base_link", from_yaw(*self.pose))
-        )
+        self.tells = self.robot.timer(0.02, lambda _: self.moving.send_rigid("odom", "base_link", from_yaw(*self.pose)))
 
     def publish_map(self, occupancy, resolution=0.1, origin=(0.0, 0.0)):
         """Latch a map (h, w)."""

@@ -270,11 +270,7 @@ def test_without_a_footprint_the_radius_is_that_of_the_real_one(stage):
         ({"plugins": "obstacles"}, ParameterError, "plugins"),
         ({"update_frequency": "fast"}, ParameterError, "update_frequency"),
         ({"plugins": [{"name": "x", "type": "costmap_2d::InflatonLayer"}]}, PluginError, "InflationLayer"),
-        (
-            {"obstacles": {"observation_sources": "a", "a": {"data_type": "Laser"}}},
-            ParameterError,
-            "LaserScan",
-        ),
+        ({"obstacles": {"observation_sources": "a", "a": {"data_type": "Laser"}}}, ParameterError, "LaserScan"),
         ({"obstacles": {"observation_sources": "a", "a": {"obstacle_range": "far"}}}, ParameterError, "far"),
     ],
 )
@@ -285,10 +281,7 @@ def test_wrong_parameters_are_refused_by_name(stage, parameters, error, said):
 
 def test_unknown_names_are_warned_of_with_the_nearest(stage, capfd):
     stage.costmap(
-        plugins=layers("obstacles", "inflation"),
-        updat_frequency=3.0,
-        inflation={"inflation_radios": 0.3},
-        **WINDOW,
+        plugins=layers("obstacles", "inflation"), updat_frequency=3.0, inflation={"inflation_radios": 0.3}, **WINDOW
     )
     said = log(capfd)
     assert "did you mean ~costmap/update_frequency" in said
@@ -398,9 +391,7 @@ def test_a_cell_is_explained_layer_by_layer(stage):
     inscribed = costmap.inscribed_radius
     assert why == {"static": 0, "obstacles": 0, "inflation": int(252 * math.exp(-3 * (0.2 - inscribed)))}
     assert (
-        str(why)
-        .splitlines()[-1]
-        .endswith(f"0.20 m away: 252 exp(-3 (0.200 - {inscribed:.3f})) = {why['inflation']})")
+        str(why).splitlines()[-1].endswith(f"0.20 m away: 252 exp(-3 (0.200 - {inscribed:.3f})) = {why['inflation']})")
     )
     assert costmap.explain(10, 10)["static"] == 254
     assert costmap.explain(29, 29)["inflation"] is None
@@ -446,9 +437,7 @@ def test_it_survives_a_gap_of_tf_and_a_scan_from_the_past(stage):
     stage.tells.shutdown()
     stage.scan([1.0] * 4, seconds=3.0)
     assert not (costmap.grid.costs == 254).any()
-    timer = stage.robot.timer(
-        0.02, lambda _: stage.moving.send_rigid("odom", "base_link", from_yaw(*stage.pose))
-    )
+    timer = stage.robot.timer(0.02, lambda _: stage.moving.send_rigid("odom", "base_link", from_yaw(*stage.pose)))
     stage.graph.run(0.5)
     stage.scan([1.0] * 4)
     assert (costmap.grid.costs == 254).sum() == 4
@@ -460,10 +449,7 @@ def test_it_survives_a_gap_of_tf_and_a_scan_from_the_past(stage):
 
 def test_it_shows_itself_with_its_own_numbers(stage):
     costmap = stage.costmap(
-        plugins=layers("obstacles", "inflation"),
-        inflation={"inflation_radius": 0.4},
-        obstacles=BOTH,
-        **WINDOW,
+        plugins=layers("obstacles", "inflation"), inflation={"inflation_radius": 0.4}, obstacles=BOTH, **WINDOW
     )
     stage.scan([1.0] * 8)
     assert "footprint of 16 points" in costmap.show().text

@@ -62,10 +62,7 @@ def test_a_text_is_read_as_costmap_2d_reads_it(text):
     ("text", "said"),
     [
         ("[[0.1, 0.1], [0.1, -0.1]]", "a list of 2 points: You must specify at least three points"),
-        (
-            "[[0.1, 0.1], [0.1], [0, 0]]",
-            r"\[1\] is \[0.1\]: Points in the footprint specification must be pairs",
-        ),
+        ("[[0.1, 0.1], [0.1], [0, 0]]", r"\[1\] is \[0.1\]: Points in the footprint specification must be pairs"),
         ('[[0.1, 0.1], [0.1, "a"], [0, 0]]', "is not a number"),
         ("[[0.1, 0.1], [0.1, NaN], [0, 0]]", "'N' is not a number"),
         ("[[0.1, 0.1], [0.1, 0], [0, 0]]]", "more ']' than '\\['"),

@@ -117,11 +117,7 @@ def test_navigation_stage_global_costmap(stage, capfd):
 
 def test_with_plugins_the_old_names_are_unused_and_said_so(stage, capfd):
     stage.costmap(
-        plugins=layers("inflation"),
-        global_frame="odom",
-        rolling_window=True,
-        static_map=False,
-        map_type="voxel",
+        plugins=layers("inflation"), global_frame="odom", rolling_window=True, static_map=False, map_type="voxel"
     )
     said = "".join(capfd.readouterr())
     for name in ("static_map", "map_type"):

@@ -26,13 +26,7 @@ def test_a_costmap_alone(stage):
     node = stage.graph.node("costmap_node")
     node.set_param(
         "~costmap",
-        {
-            "plugins": layers("inflation"),
-            "global_frame": "odom",
-            "rolling_window": True,
-            "width": 2,
-            "height": 2,
-        },
+        {"plugins": layers("inflation"), "global_frame": "odom", "rolling_window": True, "width": 2, "height": 2},
     )
     program = Costmap2DNode(node)
     assert program.costmap.grid.costs.shape == (40, 40)

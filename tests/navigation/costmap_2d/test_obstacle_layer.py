@@ -59,11 +59,7 @@ def test_one_source_may_clear_what_another_marked_and_all_clear_before_one_marks
 
 def test_a_late_source_is_told_though_another_is_on_time(stage, capfd):
     late = {"data_type": "PointCloud", "topic": "cloud", "expected_update_rate": 0.5}
-    sources = {
-        "observation_sources": "scan late",
-        "scan": {**SOURCE, "expected_update_rate": 0.5},
-        "late": late,
-    }
+    sources = {"observation_sources": "scan late", "scan": {**SOURCE, "expected_update_rate": 0.5}, "late": late}
     costmap = stage.costmap(plugins=layers("obstacles"), obstacles=sources, **WINDOW)
     for _ in range(4):
         stage.scan([1.0] * 4)

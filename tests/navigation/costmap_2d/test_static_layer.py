@@ -21,9 +21,7 @@ def lethal(costmap):
     return sorted(tuple(round(value, 2) for value in grid.map_to_world(mx, my)) for my, mx in cells)
 
 
-@pytest.mark.parametrize(
-    ("rolls", "use_maximum"), [(False, False), (False, True), (True, False), (True, True)]
-)
+@pytest.mark.parametrize(("rolls", "use_maximum"), [(False, False), (False, True), (True, False), (True, True)])
 def test_obstacles_below_stand_with_use_maximum_alone(stage, rolls, use_maximum):
     stage.publish_map(np.zeros((40, 40)))
     place = WINDOW if rolls else ROBOT
@@ -36,9 +34,7 @@ def test_obstacles_below_stand_with_use_maximum_alone(stage, rolls, use_maximum)
 
 def test_without_use_maximum_unknown_cells_of_the_map_overwrite_too(stage):
     stage.publish_map(np.full((40, 40), -1))
-    costmap = stage.costmap(
-        plugins=layers("obstacles", "static"), obstacles=SCAN, track_unknown_space=True, **ROBOT
-    )
+    costmap = stage.costmap(plugins=layers("obstacles", "static"), obstacles=SCAN, track_unknown_space=True, **ROBOT)
     stage.scan([0.8] * 4, seconds=0.5)
     assert (costmap.grid.costs == 255).all()
 

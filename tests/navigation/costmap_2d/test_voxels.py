@@ -10,22 +10,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.navigation.costmap_2d import voxels
-from rosmini.navigation.costmap_2d.voxels import (
-    UNKNOWN,
-    clear_voxels,
-    mark_voxels,
-    marked_count,
-    marked_heights,
-)
+from rosmini.navigation.costmap_2d.voxels import UNKNOWN, clear_voxels, mark_voxels, marked_count, marked_heights
 
 FRAME = np.array((0.0, 0.0, 0.0, 0.1, 0.2, 2.0))
 COORDINATES = st.tuples(st.floats(-1, 3), st.floats(-1, 3), st.floats(-0.5, 3))
 
 
 def grid(value=254):
-    return np.full((20, 20), UNKNOWN | UNKNOWN << 16, dtype=np.int64), np.full(
-        (20, 20), value, dtype=np.uint8
-    )
+    return np.full((20, 20), UNKNOWN | UNKNOWN << 16, dtype=np.int64), np.full((20, 20), value, dtype=np.uint8)
 
 
 def clear(columns, costs, sensor, ends, reach=100, marks=0, unknown=15, kernel=clear_voxels):

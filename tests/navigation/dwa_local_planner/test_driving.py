@@ -72,9 +72,7 @@ class Driven:
         node = graph.node("move_base")
         buffer = Buffer(node)
         TransformListener(node, buffer)
-        StaticTransformBroadcaster(graph.node("robot")).send(
-            "base_footprint", "base_scan", (-0.032, 0.0, 0.182)
-        )
+        StaticTransformBroadcaster(graph.node("robot")).send("base_footprint", "base_scan", (-0.032, 0.0, 0.182))
         graph.run(1.0)
         node.set_param("~local_costmap", COSTMAP)
         self.costmap = Costmap2DROS("local_costmap", buffer, node)

@@ -16,8 +16,5 @@ def test_a_planner_takes_them_without_a_word_and_drives(robot, capsys):
     bench = LocalBench("dwa_local_planner/DWAPlannerROS", parameters)
     with bench.graph:
         bench.plan(*((0.05 * i, 0.0) for i in range(40)))
-        assert bench.command() == (
-            pytest.approx(min(parameters["max_vel_x"], parameters["acc_lim_x"] / 20)),
-            0.0,
-        )
+        assert bench.command() == (pytest.approx(min(parameters["max_vel_x"], parameters["acc_lim_x"] / 20)), 0.0)
         assert capsys.readouterr().err == ""

@@ -61,9 +61,7 @@ def test_goals_that_are_aborted_are_given_up(stage, explore):
     assert run(stage, 60)
     assert stage.said("All frontiers traversed/tried out, stopping.")
     assert stage.said("1 frontiers were given up, at (")
-    assert len(stage.goals) == len(node.blacklist.points) == 2, (
-        "all around is one frontier, and is tried again"
-    )
+    assert len(stage.goals) == len(node.blacklist.points) == 2, "all around is one frontier, and is tried again"
     reds = [marker for marker in stage.markers[-1].markers if marker.color.r == 1.0]
     assert len(reds) == 1
 

@@ -26,6 +26,4 @@ def test_a_moved_map_has_the_robot_where_it_was_wanted(true, before, wanted):
 
 def test_the_deltas_are_taken_off():
     assert same(compose(offset(1.0, 2.0, 0.0), from_yaw(3.0, 3.0, 0.5)), from_yaw(2.0, 1.0, 0.5))
-    assert same(
-        compose(offset(0.0, 0.0, math.pi / 2), from_yaw(1.0, 0.0, 0.0)), from_yaw(0.0, -1.0, -math.pi / 2)
-    )
+    assert same(compose(offset(0.0, 0.0, math.pi / 2), from_yaw(1.0, 0.0, 0.0)), from_yaw(0.0, -1.0, -math.pi / 2))

@@ -86,8 +86,7 @@ class Trial:
 
 def with_settings(text):
     return text + "".join(
-        f'<param name="/turtlebot3_slam_gmapping/{name}" value="{value}"/>'
-        for name, value in SETTINGS.items()
+        f'<param name="/turtlebot3_slam_gmapping/{name}" value="{value}"/>' for name, value in SETTINGS.items()
     )
 
 
@@ -106,9 +105,7 @@ def test_frontier_exploration_ends_by_itself_and_the_older_nodes_are_ended(graph
     older = {name: graph.nodes[name] for name in ("/move_base", "/turtlebot3_slam_gmapping")}
     again = '<arg name="slam_methods" value="frontier_exploration"/><arg name="open_rviz" value="false"/>'
     file = "$(find turtlebot3_slam)/launch/turtlebot3_slam.launch"
-    trial.launch(
-        "second.launch", with_settings(f'<launch><include file="{file}">{again}</include>') + "</launch>"
-    )
+    trial.launch("second.launch", with_settings(f'<launch><include file="{file}">{again}</include>') + "</launch>")
     graph.run(6.0)
     for name, node in older.items():
         assert node.is_shutdown(), "the Master lets the newer of two nodes of one name live"

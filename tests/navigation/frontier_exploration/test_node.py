@@ -21,12 +21,7 @@ class Exploration:
         boundary = {"resize_to_boundary": False, "explore_clear_space": False}
         stage.node.set_param(
             "/explore_server/explore_costmap",
-            {
-                "plugins": LAYERS,
-                "track_unknown_space": True,
-                "robot_radius": 0.1,
-                "explore_boundary": boundary,
-            },
+            {"plugins": LAYERS, "track_unknown_space": True, "robot_radius": 0.1, "explore_boundary": boundary},
         )
         if base:
             stage.base.start()
@@ -139,9 +134,7 @@ def test_between_two_that_are_near_by_turns_it_makes_up_its_mind(stage):
     assert 2 < len(stage.goals) < 12
 
 
-@pytest.mark.parametrize(
-    "points", [((1, 1), (2, 2)), ((1, 1), (2, 2), (2, 1), (1, 2)), ((50, 50), (51, 50), (51, 51))]
-)
+@pytest.mark.parametrize("points", [((1, 1), (2, 2)), ((1, 1), (2, 2), (2, 1), (1, 2)), ((50, 50), (51, 50), (51, 51))])
 def test_areas_that_are_none_and_then_one(stage, points):
     stage.know(0.5, 0.5, 1.6, 1.6)
     exploration = Exploration(stage)

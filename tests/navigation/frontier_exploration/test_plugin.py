@@ -71,12 +71,7 @@ def test_frontiers_inside_of_a_boundary(bounded, stage):
 
 @pytest.mark.parametrize(
     ("point", "wanted"),
-    [
-        ("closest", (2.05, 0.85)),
-        ("closet", (2.05, 0.85)),
-        ("middle", (2.05, 1.05)),
-        ("centroid", (2.05, 1.05)),
-    ],
+    [("closest", (2.05, 0.85)), ("closet", (2.05, 0.85)), ("middle", (2.05, 1.05)), ("centroid", (2.05, 1.05))],
 )
 def test_which_point_of_a_frontier(stage, point, wanted):
     stage.know(0.5, 0.5, 2.0, 2.0)
@@ -132,11 +127,7 @@ def test_known_space_is_explored_again(stage):
     [
         ([(1, 1), (2, 2)], "map", "a polygon of 2 vertices has no area"),
         ([(1, 1), (2, 2), (2, 1), (1, 2)], "map", "edges after vertices 1 and 3"),
-        (
-            [(50, 50), (51, 50), (51, 51)],
-            "map",
-            r"from \(50.00, 50.00\) to \(51.00, 51.00\), does not overlap",
-        ),
+        ([(50, 50), (51, 50), (51, 51)], "map", r"from \(50.00, 50.00\) to \(51.00, 51.00\), does not overlap"),
         ([(1, 1), (2, 1), (2, 2)], "moon", "Couldn't transform from map to moon"),
     ],
 )

@@ -112,9 +112,7 @@ def slow(costs, start):
     corners = [*sides, (-1, -1), (-1, 1), (1, -1), (1, 1)]
 
     def is_frontier(x, y):
-        return costs[y, x] == 255 and any(
-            inside(x + dx, y + dy) and costs[y + dy, x + dx] == 0 for dx, dy in sides
-        )
+        return costs[y, x] == 255 and any(inside(x + dx, y + dy) and costs[y + dy, x + dx] == 0 for dx, dy in sides)
 
     queue, seen, marked, found = deque([start]), {start}, set(), []
     while queue:

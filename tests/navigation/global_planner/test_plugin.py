@@ -37,9 +37,7 @@ def test_names_types_defaults_and_ranges_are_those_of_the_real_cfg():
 @pytest.mark.parametrize("use_dijkstra", [True, False])
 @pytest.mark.parametrize("use_grid_path", [True, False])
 @pytest.mark.parametrize("use_quadratic", [True, False])
-def test_a_plan_begins_at_the_robot_and_ends_at_the_goal_in_each_form(
-    use_dijkstra, use_grid_path, use_quadratic
-):
+def test_a_plan_begins_at_the_robot_and_ends_at_the_goal_in_each_form(use_dijkstra, use_grid_path, use_quadratic):
     forms = {"use_dijkstra": use_dijkstra, "use_grid_path": use_grid_path, "use_quadratic": use_quadratic}
     made, graph, heard = planner(GlobalPlanner, room(), **forms)
     plan = made.make_plan(pose(0.03, -1.02), pose(2.5, -1.5, 1.0))
@@ -97,11 +95,7 @@ def test_costs_are_changed_while_it_runs():
 
 def test_parameters_out_of_range_are_limited(capsys):
     made, _, _ = planner(GlobalPlanner, room(), orientation_mode=7, neutral_cost=66.0, cost_factor=9)
-    assert (made.config["orientation_mode"], made.config["neutral_cost"], made.config["cost_factor"]) == (
-        6,
-        66,
-        5.0,
-    )
+    assert (made.config["orientation_mode"], made.config["neutral_cost"], made.config["cost_factor"]) == (6, 66, 5.0)
     said = capsys.readouterr().err
     assert "/move_base/GlobalPlanner/orientation_mode is 7" in said
     assert "1 ... 255" not in said

@@ -17,9 +17,7 @@ AHEAD = np.zeros(1)
 def write(maps, pose, ranges, bearings=None, usable=10.0):
     count = len(maps.tables)
     bearings = np.zeros(len(ranges)) if bearings is None else np.asarray(bearings, dtype=float)
-    maps.register(
-        np.tile(np.array(pose, dtype=float), (count, 1)), np.asarray(ranges, dtype=float), bearings, usable
-    )
+    maps.register(np.tile(np.array(pose, dtype=float), (count, 1)), np.asarray(ranges, dtype=float), bearings, usable)
 
 
 def at(maps, particle, x, y):
@@ -86,17 +84,13 @@ def test_every_beam_ends_where_it_points(seed):
 
 def test_a_map_that_is_chosen_twice_is_not_copied_until_it_changes():
     maps = SharedMaps(3, 0.1)
-    maps.register(
-        np.array([(0.05, 0.05, 0.0), (0.05, 5.05, 0.0), (0.05, 9.05, 0.0)]), np.array([1.0]), AHEAD, 10.0
-    )
+    maps.register(np.array([(0.05, 0.05, 0.0), (0.05, 5.05, 0.0), (0.05, 9.05, 0.0)]), np.array([1.0]), AHEAD, 10.0)
     before = maps.occupancy(1)[0].copy()
     maps.choose(np.array([1, 1, 1]))
     one = maps.bytes_used
     assert one < 3 * PATCH_BYTES
     assert (maps.tables[0] == maps.tables[2]).all()
-    maps.register(
-        np.array([(0.05, 5.05, 0.0), (0.05, 5.05, 0.5), (0.05, 5.05, 1.0)]), np.array([2.0]), AHEAD, 10.0
-    )
+    maps.register(np.array([(0.05, 5.05, 0.0), (0.05, 5.05, 0.5), (0.05, 5.05, 1.0)]), np.array([2.0]), AHEAD, 10.0)
     assert maps.bytes_used > one
     shown = [maps.occupancy(particle)[0] for particle in range(3)]
     assert not np.array_equal(shown[0], shown[1])

@@ -48,9 +48,7 @@ def test_score_and_likelihood_of_one_beam():
         assert score == pytest.approx(math.exp(-(off**2) / 0.05), abs=1e-9)
         assert likelihood == pytest.approx(-(off**2) / 0.075, abs=1e-9)
     assert scored(maps, (1.03, 0.2)) == (0.0, pytest.approx(-0.5 / 0.075)), "nothing is near"
-    assert scored(maps, (1.12, 0.0)) == (0.0, pytest.approx(-0.5 / 0.075)), (
-        "two cells away, with kernelSize 1"
-    )
+    assert scored(maps, (1.12, 0.0)) == (0.0, pytest.approx(-0.5 / 0.075)), "two cells away, with kernelSize 1"
     assert scored(maps, (1.12, 0.0), kernel_size=2)[0] == pytest.approx(math.exp(-(0.09**2) / 0.05))
 
 
@@ -71,9 +69,7 @@ def test_a_search_finds_the_pose(maps, off):
     found = Matcher().match(maps, truth + np.array(off), ranges, BEARINGS, 10.0)
     assert math.dist(found.poses[0, :2], truth[0, :2]) < 0.015
     assert abs(found.poses[0, 2] - truth[0, 2]) < 0.015
-    start = Matcher(iterations=0, lstep=0.0, astep=0.0).match(
-        maps, truth + np.array(off), ranges, BEARINGS, 10.0
-    )
+    start = Matcher(iterations=0, lstep=0.0, astep=0.0).match(maps, truth + np.array(off), ranges, BEARINGS, 10.0)
     assert found.scores[0] >= start.scores[0]
 
 

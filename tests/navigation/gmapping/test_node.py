@@ -97,9 +97,7 @@ class Laser:
         StaticTransformBroadcaster(self.node).send_rigid("base_link", "laser", mount)
         given = {"particles": 3, "xmin": -2, "xmax": 2, "ymin": -2, "ymax": 2, **given}
         arguments = [f"_{name}:={value}" for name, value in given.items()]
-        self.mapper = rosrun(
-            "gmapping", "slam_gmapping", "__name:=gmapping", *arguments, graph=graph
-        ).instance()
+        self.mapper = rosrun("gmapping", "slam_gmapping", "__name:=gmapping", *arguments, graph=graph).instance()
         graph.run(0.2)
 
     def scan(self, ranges, *, odom=True, **changes):
@@ -184,8 +182,7 @@ def test_an_odometry_that_jumps_beyond_all_maps(graph):
 
 
 @pytest.mark.parametrize(
-    ("name", "value"),
-    [("xmin", 5.0), ("maxRange", -1.0), ("maxUrange", -5.0), ("transform_publish_period", -1.0)],
+    ("name", "value"), [("xmin", 5.0), ("maxRange", -1.0), ("maxUrange", -5.0), ("transform_publish_period", -1.0)]
 )
 def test_a_value_that_is_accepted_with_a_warning(graph, name, value):
     """Machine code that follows beams of negative length ended the whole process."""
@@ -237,9 +234,7 @@ def test_a_transform_is_sent_once_for_each_time(graph):
     node.subscriber("tf", message_class("tf2_msgs/TFMessage"), sent.append)
     rosrun("gmapping", "slam_gmapping", graph=graph)
     for tenths in range(20):
-        clock.publish(
-            message_class("rosgraph_msgs/Clock")(clock=Time(10 + tenths // 10, tenths % 10 * 100_000_000))
-        )
+        clock.publish(message_class("rosgraph_msgs/Clock")(clock=Time(10 + tenths // 10, tenths % 10 * 100_000_000)))
         graph.run(0.1)
     stamps = [message.transforms[0].header.stamp for message in sent]
     assert len(stamps) > 10

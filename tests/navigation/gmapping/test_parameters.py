@@ -59,9 +59,7 @@ LIMITED = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("name", "value"), [(name, one) for name, values in UNCHANGED.items() for one in values]
-)
+@pytest.mark.parametrize(("name", "value"), [(name, one) for name, values in UNCHANGED.items() for one in values])
 def test_a_value_that_the_original_accepts_is_used(node, capsys, name, value):
     node.set_param(f"~{name}", value)
     assert getattr(GmappingParameters.read(node), name) == value
@@ -78,9 +76,7 @@ def test_a_value_that_is_limited_causes_one_warning(node, capsys, name, value, l
     assert str(limited) in warned
 
 
-@pytest.mark.parametrize(
-    ("name", "value"), [("particles", 0), ("particles", -1), ("delta", 0.0), ("delta", -0.05)]
-)
+@pytest.mark.parametrize(("name", "value"), [("particles", 0), ("particles", -1), ("delta", 0.0), ("delta", -0.05)])
 def test_a_value_that_ends_the_original_is_an_error(node, name, value):
     node.set_param(f"~{name}", value)
     with pytest.raises(ParameterError, match=f"/gmapping/{name} .* is {value}"):

@@ -46,9 +46,7 @@ def test_motion_has_the_spread_of_the_model():
     slam.move((0.0, 0.0, 0.0))
     slam.move((1.0, 0.0, 0.5))
     turned, across = 0.4 * 0.5 + 0.2 * 1.0, 0.3 * 0.1
-    assert np.std(slam.poses, axis=0) == pytest.approx(
-        [0.1 + 0.3 * 0.5, 0.3 * 0.5 + across, turned], rel=0.03
-    )
+    assert np.std(slam.poses, axis=0) == pytest.approx([0.1 + 0.3 * 0.5, 0.3 * 0.5 + across, turned], rel=0.03)
     assert np.mean(slam.poses, axis=0) == pytest.approx([1.0, 0.0, 0.5], abs=0.01)
 
 
@@ -150,9 +148,7 @@ def test_a_house_is_mapped_as_well_as_by_the_original():
     assert len(path) == len(taken)
     aligned = compose(compose(tuple(truth[0].tolist()), inverse(tuple(path[0].tolist()))), path)
     error = math.sqrt(np.mean(np.sum((aligned - truth)[:, :2] ** 2, axis=1)))
-    alone = compose(
-        compose(tuple(truth[0].tolist()), inverse(tuple(log["odom"][0].tolist()))), log["odom"][taken]
-    )
+    alone = compose(compose(tuple(truth[0].tolist()), inverse(tuple(log["odom"][0].tolist()))), log["odom"][taken])
     drift = math.sqrt(np.mean(np.sum((alone - truth)[:, :2] ** 2, axis=1)))
     assert error < 0.109
     assert error < drift / 4

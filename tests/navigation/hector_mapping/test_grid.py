@@ -41,9 +41,7 @@ def test_lines_are_bresenhams(ends):
     first = (7, -4)
     ends = [end for end in ends if end != first] or [(8, -4)]
     columns, rows = passed_cells(np.array(first), np.array(ends))
-    assert list(zip(columns.tolist(), rows.tolist(), strict=True)) == [
-        c for end in ends for c in by_hand(first, end)
-    ]
+    assert list(zip(columns.tolist(), rows.tolist(), strict=True)) == [c for end in ends for c in by_hand(first, end)]
 
 
 def test_what_is_hit_is_not_passed_and_each_cell_changes_once():

@@ -59,12 +59,8 @@ def test_slopes_are_differences(x, y):
     if min(abs(v - round(v)) for v in (x, y)) < 2 * e:
         return  # At the middles of cells the surface has a kink.
     _, dx, dy = surface(BY_HAND, x, y)
-    assert dx == pytest.approx(
-        (surface(BY_HAND, x + e, y)[0] - surface(BY_HAND, x - e, y)[0]) / 2 / e, abs=1e-5
-    )
-    assert dy == pytest.approx(
-        (surface(BY_HAND, x, y + e)[0] - surface(BY_HAND, x, y - e)[0]) / 2 / e, abs=1e-5
-    )
+    assert dx == pytest.approx((surface(BY_HAND, x + e, y)[0] - surface(BY_HAND, x - e, y)[0]) / 2 / e, abs=1e-5)
+    assert dy == pytest.approx((surface(BY_HAND, x, y + e)[0] - surface(BY_HAND, x, y - e)[0]) / 2 / e, abs=1e-5)
 
 
 def test_a_step_is_gauss_newtons(grid):
@@ -78,9 +74,7 @@ def test_a_step_is_gauss_newtons(grid):
         return np.array([1 - surface(grid.probabilities, *point)[0] for point in points])
 
     e = 1e-6
-    jacobian = np.column_stack(
-        [(lacking(pose + e * unit) - lacking(pose - e * unit)) / 2 / e for unit in np.eye(3)]
-    )
+    jacobian = np.column_stack([(lacking(pose + e * unit) - lacking(pose - e * unit)) / 2 / e for unit in np.eye(3)])
     step = -np.linalg.solve(jacobian.T @ jacobian, jacobian.T @ lacking(pose))
     moved, result = pose.copy(), np.zeros(8)
     climb(grid.probabilities, ends, moved, 1, result)

@@ -200,16 +200,10 @@ def test_pause_and_restart(graph):
 def test_an_initial_pose(graph):
     laser = Laser(graph)
     laser.see(0.0, 0.0)
-    start = laser.node.publisher(
-        "initialpose", message_class("geometry_msgs/PoseWithCovarianceStamped"), queue_size=1
-    )
+    start = laser.node.publisher("initialpose", message_class("geometry_msgs/PoseWithCovarianceStamped"), queue_size=1)
     graph.run(0.2)
     message = message_class("geometry_msgs/PoseWithCovarianceStamped")()
-    for frame, x, text in (
-        ("map", 50.0, "outside the map"),
-        ("odom", 0.5, "must be"),
-        ("map", math.nan, "finite"),
-    ):
+    for frame, x, text in (("map", 50.0, "outside the map"), ("odom", 0.5, "must be"), ("map", math.nan, "finite")):
         message.header.frame_id, message.pose.pose.position.x, message.pose.pose.orientation.w = frame, x, 1.0
         start.publish(message)
         graph.run(0.2)
@@ -265,11 +259,7 @@ def test_time_that_jumps_back(graph):
 def test_a_robot_that_leans(graph):
     """With a level frame under it, the laser's beams end where the walls are."""
     laser = Laser(
-        graph,
-        base_frame="base_stabilized",
-        odom_frame="base_stabilized",
-        laser_z_min_value=-0.2,
-        laser_z_max_value=0.2,
+        graph, base_frame="base_stabilized", odom_frame="base_stabilized", laser_z_min_value=-0.2, laser_z_max_value=0.2
     )
     laser.tf.send_rigid("base_stabilized", "base_link", from_rpy((0, 0, 0), 0.0, 0.15, 0.0))
     laser.see(0.0, 0.0)
@@ -282,9 +272,7 @@ def test_a_robot_that_leans(graph):
 @pytest.mark.parametrize("own", [True, False])
 def test_a_start_by_tf(graph, own):
     """A quarter of a turn between two scans: only with the odometry as start is it found."""
-    laser = Laser(
-        graph, use_tf_pose_start_estimate="true", odom_frame="odom", pub_map_odom_transform=str(own).lower()
-    )
+    laser = Laser(graph, use_tf_pose_start_estimate="true", odom_frame="odom", pub_map_odom_transform=str(own).lower())
     if not own:
         StaticTransformBroadcaster(laser.node).send_rigid("map", "odom", from_yaw(0.0, 0.0, 0.0))
     for turn in (0.0, math.pi / 2):
@@ -305,9 +293,7 @@ def test_odometry_that_is_not_there(graph):
 
 def test_a_robot_that_is_its_laser(graph):
     laser = Laser(graph, use_tf_scan_transformation="false", map_resolution=0.05, map_size=20)
-    laser.scan(
-        [0.3] * 180, header=message_class("std_msgs/Header")(frame_id="unknown", stamp=laser.node.now())
-    )
+    laser.scan([0.3] * 180, header=message_class("std_msgs/Header")(frame_id="unknown", stamp=laser.node.now()))
     assert laser.occupied > 20
     laser.mapper.slam.pose = (5.0, 0.0, 0.0)
     laser.scan([0.3] * 180)

@@ -40,9 +40,7 @@ LIMITED = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("name", "value"), [(name, one) for name, values in UNCHANGED.items() for one in values]
-)
+@pytest.mark.parametrize(("name", "value"), [(name, one) for name, values in UNCHANGED.items() for one in values])
 def test_a_value_that_the_original_accepts_is_used(node, capsys, name, value):
     node.set_param(f"~{name}", value)
     assert getattr(HectorMappingParameters.read(node), name) == value
@@ -59,9 +57,7 @@ def test_a_value_that_is_limited_causes_one_warning(node, capsys, name, value, l
     assert str(limited) in warned
 
 
-@pytest.mark.parametrize(
-    ("name", "value"), [("map_resolution", 0.0), ("map_multi_res_levels", 0), ("map_size", -5)]
-)
+@pytest.mark.parametrize(("name", "value"), [("map_resolution", 0.0), ("map_multi_res_levels", 0), ("map_size", -5)])
 def test_a_value_that_ends_the_original_is_an_error(node, name, value):
     node.set_param(f"~{name}", value)
     with pytest.raises(ParameterError, match=f"/hector_mapping/{name} .* is {value}"):

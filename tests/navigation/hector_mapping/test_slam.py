@@ -80,10 +80,7 @@ def test_a_reset_forgets():
 
 @pytest.mark.parametrize(
     ("changes", "text"),
-    [
-        ({"map_resolution": 0.0}, "all must be greater than 0"),
-        ({"update_factor_free": 1.0}, "must be a probability"),
-    ],
+    [({"map_resolution": 0.0}, "all must be greater than 0"), ({"update_factor_free": 1.0}, "must be a probability")],
 )
 def test_parameters_that_make_no_map(changes, text):
     with pytest.raises(RosminiError, match=text):

@@ -33,9 +33,7 @@ class Bench:
         self.said = []
         self.heard = []
         self.reader = self.graph.node("reader")
-        self.reader.subscriber(
-            "/rosout", message_class("rosgraph_msgs/Log"), lambda log: self.said.append(log.msg)
-        )
+        self.reader.subscriber("/rosout", message_class("rosgraph_msgs/Log"), lambda log: self.said.append(log.msg))
         self.node = self.graph.node("map_server")
         for name, value in (parameters or {}).items():
             self.node.set_param(f"~{name}", value)
@@ -167,11 +165,7 @@ def test_the_deprecated_form_has_its_thresholds_from_parameters(files):
 
 @pytest.mark.parametrize(
     ("arguments", "said"),
-    [
-        ((), "0 arguments.\nUSAGE: map_server"),
-        (("a", "b", "c"), "3 arguments"),
-        (("one.pgm", "fine"), "'fine'"),
-    ],
+    [((), "0 arguments.\nUSAGE: map_server"), (("a", "b", "c"), "3 arguments"), (("one.pgm", "fine"), "'fine'")],
 )
 def test_a_command_line_that_makes_no_sense_is_told(arguments, said):
     with pytest.raises(UsageError, match=said):

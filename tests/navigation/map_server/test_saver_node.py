@@ -61,16 +61,12 @@ def test_it_is_started_as_in_a_terminal(graph, tmp_path):
 
 
 def test_what_a_server_serves_is_saved_as_it_was(graph, tmp_path):
-    yaml, image = save_map(
-        GridMap(np.array([[0, 100], [-1, 0]], dtype=np.int8), 0.05, (1.0, -2.0, 0.5)), "one"
-    )
+    yaml, image = save_map(GridMap(np.array([[0, 100], [-1, 0]], dtype=np.int8), 0.05, (1.0, -2.0, 0.5)), "one")
     MapServer(graph.node("map_server"), str(yaml))
     handle = rosrun("map_server", "map_saver", "-f", "two", graph=graph)
     assert handle.wait(5.0) == 0
     assert (tmp_path / "two.pgm").read_bytes() == image.read_bytes()
-    assert (tmp_path / "two.yaml").read_text(encoding="utf-8") == yaml.read_text(encoding="utf-8").replace(
-        "one", "two"
-    )
+    assert (tmp_path / "two.yaml").read_text(encoding="utf-8") == yaml.read_text(encoding="utf-8").replace("one", "two")
 
 
 def test_a_file_that_cannot_be_written_ends_it_with_a_reason(graph):
@@ -99,10 +95,7 @@ def test_help(graph, capsys):
         ("--occ 0", "threshold_occupied must be between 1 and 100, not 0"),
         ("--occ 101", "threshold_occupied must be between 1 and 100"),
         ("--free -1", "threshold_free must be between 0 and 100"),
-        (
-            "--occ 30 --free 30",
-            "threshold_free must be smaller than threshold_occupied, and 30 is not below 30",
-        ),
+        ("--occ 30 --free 30", "threshold_free must be smaller than threshold_occupied, and 30 is not below 30"),
         ("--occ many", "threshold_occupied is 'many'"),
         ("-f", "Usage:"),
         ("house", "Usage:"),

@@ -11,9 +11,7 @@ def costmap(radius, inscribed=0.105, circumscribed=0.11, name="global_costmap"):
     layer = InflationLayer()
     layer.radius = radius
     layers = [] if radius is None else [layer]
-    return SimpleNamespace(
-        name=name, layers=layers, inscribed_radius=inscribed, circumscribed_radius=circumscribed
-    )
+    return SimpleNamespace(name=name, layers=layers, inscribed_radius=inscribed, circumscribed_radius=circumscribed)
 
 
 @pytest.mark.parametrize(
@@ -37,6 +35,4 @@ def test_namespaces_that_nobody_reads():
         node = graph.node("move_base")
         node.set_param("~", {"global_costmp": {"width": 3}, "global_costmap": {}, "mine": {}, "rate": 1})
         (text,) = unread_namespaces(node, ["global_costmap", "local_costmap"])
-    assert text.startswith(
-        "nothing reads the parameters in /move_base/global_costmp; did you mean global_costmap"
-    )
+    assert text.startswith("nothing reads the parameters in /move_base/global_costmp; did you mean global_costmap")

@@ -20,9 +20,7 @@ def grid(*cells):
 
 def test_clearance_is_from_the_outline_to_the_middle_of_a_cell():
     assert clearance(grid((60, 50)), (2.525, 2.525, 0.0), SQUARE) == pytest.approx(0.4)
-    assert clearance(grid((60, 50)), (2.525, 2.525, math.pi / 4), SQUARE) == pytest.approx(
-        0.5 - 0.1 * math.sqrt(2)
-    )
+    assert clearance(grid((60, 50)), (2.525, 2.525, math.pi / 4), SQUARE) == pytest.approx(0.5 - 0.1 * math.sqrt(2))
     assert clearance(grid((51, 50)), (2.525, 2.525, 0.0), SQUARE) == 0.0, "inside"
     assert clearance(grid((90, 90)), (2.525, 2.525, 0.0), SQUARE) is None
     assert clearance(grid((60, 50)), (2.525, 2.525, 0.0), []) is None

@@ -15,13 +15,7 @@ from rosmini.msgs.geometry_msgs.msg import PoseStamped, Twist
 from rosmini.msgs.move_base_msgs.msg import MoveBaseAction, MoveBaseGoal, RecoveryStatus
 from rosmini.msgs.nav_msgs.srv import GetPlan
 from rosmini.navigation.move_base.state_machine import State
-from rosmini.navigation.nav_core import (
-    BaseGlobalPlanner,
-    BaseLocalPlanner,
-    NoPath,
-    NoValidCommand,
-    pose_stamped,
-)
+from rosmini.navigation.nav_core import BaseGlobalPlanner, BaseLocalPlanner, NoPath, NoValidCommand, pose_stamped
 from rosmini.ros.launch import roslaunch
 from rosmini.sim.shapes import Box
 from rosmini.sim.world import Obstacle
@@ -146,16 +140,8 @@ def test_its_topics_and_services_are_those_of_the_real_one(graph):
         "/move_base/recovery_status",
         "/move_base/result",
         "/move_base/status",
-        *(
-            f"/move_base/{each}/{topic}"
-            for each in COSTMAPS
-            for topic in ("costmap", "costmap_updates", "footprint")
-        ),
-        *(
-            f"/move_base{each}/parameter_{what}"
-            for each in changeable
-            for what in ("descriptions", "updates")
-        ),
+        *(f"/move_base/{each}/{topic}" for each in COSTMAPS for topic in ("costmap", "costmap_updates", "footprint")),
+        *(f"/move_base{each}/parameter_{what}" for each in changeable for what in ("descriptions", "updates")),
     }
     assert set(node.subscriptions) == {
         "/map", "/move_base/cancel", "/move_base/global_costmap/footprint", "/move_base/goal",
@@ -246,10 +232,7 @@ def test_recoveries_run_in_their_order_and_the_list_ends(graph):
     change(rig, base_local_planner="test_node/Stubborn", controller_patience=0.3, oscillation_timeout=0.0)
     Stubborn.asked = -1000
     state, text = go(rig, goal(1.0, 0.0))
-    assert (state, text) == (
-        Status.ABORTED,
-        "Failed to find a valid control. Even after executing recovery behaviors.",
-    )
+    assert (state, text) == (Status.ABORTED, "Failed to find a valid control. Even after executing recovery behaviors.")
     expected = ["conservative_reset", "rotate_recovery", "aggressive_reset", "rotate_recovery"]
     assert [each.recovery_behavior_name for each in statuses] == expected
     assert [each.current_recovery_number for each in statuses] == [0, 1, 2, 3]
@@ -297,15 +280,10 @@ def test_planners_change_at_run_time(graph):
 
 def test_a_planner_that_never_returns(graph):
     rig = start(graph)
-    change(
-        rig, base_global_planner="test_node/Endless", recovery_behavior_enabled=False, planner_patience=2.0
-    )
+    change(rig, base_global_planner="test_node/Endless", recovery_behavior_enabled=False, planner_patience=2.0)
     state, text = go(rig, goal(1.0, 0.0), 30.0)
     assert (state, text) == NO_PLAN
-    assert (
-        "make_plan() of the global planner test_node/Endless did not return within 2 s"
-        in rig.move_base.problem
-    )
+    assert "make_plan() of the global planner test_node/Endless did not return within 2 s" in rig.move_base.problem
 
 
 def test_make_plan(graph):
@@ -351,12 +329,7 @@ def test_careful_plans_keep_the_robots_width_and_it_backs_out_of_a_corner(graph)
     rig = start(graph, careful=True)
     move_base = rig.move_base
     local = move_base.local_costmap
-    assert (
-        local.inscribed_radius
-        < 0.105
-        < move_base.global_costmap.inscribed_radius
-        < local.circumscribed_radius
-    )
+    assert local.inscribed_radius < 0.105 < move_base.global_costmap.inscribed_radius < local.circumscribed_radius
     for costmap in (move_base.global_costmap, local):
         (layer,) = (each for each in costmap.layers if each.name == "obstacle_layer")
         assert [source.settings.inf_is_valid for source in layer.sources] == [True]

@@ -48,20 +48,13 @@ def test_layers_and_planners_say_what_they_hear(move_base):
     }
     heard = frozenset().union(*(part.subscribes for part in found.values()))
     assert heard <= set(move_base.node.subscriptions)
-    assert {name for name, part in found.items() if part.publishes == {"/cmd_vel"}} == {
-        "local planner",
-        RECOVERIES,
-    }
+    assert {name for name, part in found.items() if part.publishes == {"/cmd_vel"}} == {"local planner", RECOVERIES}
 
 
 def test_the_lines_name_what_is_loaded(move_base):
     found = parts(move_base)
     assert found["global planner"].lines == ("global planner", "navfn/NavfnROS")
-    assert found["local_costmap"].lines[1:] == (
-        "60 x 60 cells, frame odom",
-        "obstacle_layer",
-        "inflation_layer",
-    )
+    assert found["local_costmap"].lines[1:] == ("60 x 60 cells, frame odom", "obstacle_layer", "inflation_layer")
     assert found[RECOVERIES].lines[1:3] == ("1. conservative_reset", "2. rotate_recovery")
 
 

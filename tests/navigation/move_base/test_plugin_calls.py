@@ -5,9 +5,7 @@ import pytest
 from rosmini.navigation.move_base.plugin_calls import PluginFault, call
 from rosmini.navigation.nav_core import NoPath
 
-traced = pytest.mark.skipif(
-    sys.gettrace() is not None, reason="whoever measures coverage has the trace function"
-)
+traced = pytest.mark.skipif(sys.gettrace() is not None, reason="whoever measures coverage has the trace function")
 
 
 class Mine:
@@ -69,10 +67,7 @@ def test_its_own_failures_come_through(node):
 def test_what_it_raises_is_said_with_its_place(node):
     error = asked(node, Mine(node).raises)
     assert isinstance(error, PluginFault)
-    assert (
-        "the planner mine/Mine raised IndexError: list index out of range (test_plugin_calls.py, line"
-        in str(error)
-    )
+    assert "the planner mine/Mine raised IndexError: list index out of range (test_plugin_calls.py, line" in str(error)
 
 
 @traced

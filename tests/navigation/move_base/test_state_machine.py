@@ -154,9 +154,7 @@ steps = st.lists(
 
 @given(steps, st.sampled_from([0.0, 5.0]), st.integers(-1, 3), st.integers(0, 4))
 def test_whatever_happens_the_changes_are_those_of_the_table(events, frequency, retries, recoveries):
-    it = machine(
-        recoveries, planner_frequency=frequency, max_planning_retries=retries, oscillation_timeout=7.0
-    )
+    it = machine(recoveries, planner_frequency=frequency, max_planning_retries=retries, oscillation_timeout=7.0)
     now = 0.0
     for what, later in events:
         now += later

@@ -60,9 +60,7 @@ def test_only_robots_of_the_namespace_and_the_topic_are_taken_and_never_the_resu
         place(graph, robot, 0.0, 0.0)
         draw(graph, f"/{robot}/map", [[0]])
     draw(graph, "/tb3_0/costmap", [[100]])
-    node = rosrun(
-        "multirobot_map_merge", "map_merge", *RATES, "_robot_namespace:=tb3", graph=graph
-    ).instance()
+    node = rosrun("multirobot_map_merge", "map_merge", *RATES, "_robot_namespace:=tb3", graph=graph).instance()
     graph.run(2.0)
     assert list(node.robots) == ["/tb3_0"]
 
@@ -101,9 +99,7 @@ ROBOT = """
 def test_two_maps_by_gmapping_in_one_world_are_one(graph, tmp_path):
     """By the launch files: two robots in the room, each maps what it sees from where it stands."""
     file = tmp_path / "two.launch"
-    file.write_text(
-        f"<launch>{''.join(ROBOT.format(name=name) for name in ('tb3_0', 'tb3_1'))}</launch>", "utf-8"
-    )
+    file.write_text(f"<launch>{''.join(ROBOT.format(name=name) for name in ('tb3_0', 'tb3_1'))}</launch>", "utf-8")
     robots = "[{name: tb3_0, x: 0.0, y: 0.0}, {name: tb3_1, x: 2.0, y: 1.5, yaw: 1.5708}]"
     rosrun("rosmini_sim", "simulator", "_world:=room", f"_robots:={robots}", graph=graph).instance()
     for robot in ("tb3_0", "tb3_1"):

@@ -64,16 +64,12 @@ def test_what_was_edited_takes_effect(package):
 
 def test_several_libraries_in_one_file(package):
     other = XML.replace("my_pkg/MyPlanner", "my_pkg/Other")
-    (package / "planner_plugin.xml").write_text(
-        f"<class_libraries>{XML}{other}</class_libraries>", encoding="utf-8"
-    )
+    (package / "planner_plugin.xml").write_text(f"<class_libraries>{XML}{other}</class_libraries>", encoding="utf-8")
     assert create(BaseGlobalPlanner, "my_pkg/Other").says == "hello"
 
 
 def test_a_module_beside_the_manifest(package):
-    (package / "alone.py").write_text(
-        CODE.replace("from my_pkg.words import SAYS", "SAYS = 1"), encoding="utf-8"
-    )
+    (package / "alone.py").write_text(CODE.replace("from my_pkg.words import SAYS", "SAYS = 1"), encoding="utf-8")
     (package / "planner_plugin.xml").write_text(XML.replace("my_pkg.planner", "alone"), encoding="utf-8")
     assert create(BaseGlobalPlanner, "my_pkg/MyPlanner").says == 1
 
@@ -87,11 +83,7 @@ def write(package, xml=XML, code=CODE):
     ("xml", "code", "message"),
     [
         (XML, CODE.replace("class MyPlanner", "class Mine"), "as the class MyPlanner of my_pkg.planner"),
-        (
-            XML,
-            "class MyPlanner: pass",
-            r"does not derive from BaseGlobalPlanner: class MyPlanner\(BaseGlobalPlanner\)",
-        ),
+        (XML, "class MyPlanner: pass", r"does not derive from BaseGlobalPlanner: class MyPlanner\(BaseGlobalPlanner\)"),
         (XML, "import nosuchthing", "cannot be loaded: .*nosuchthing"),
         (XML, "def f(:", "cannot be loaded: SyntaxError"),
         (XML.replace("my_pkg.planner", "lib/libmy_planner"), CODE, r"C\+\+ libraries cannot be loaded"),
@@ -112,9 +104,7 @@ def test_a_description_that_is_not_there(package):
 
 
 def test_an_unknown_name(package):
-    with pytest.raises(
-        PluginError, match=r"there is no RecoveryBehavior .* did you mean clear_costmap_recovery/Cl"
-    ):
+    with pytest.raises(PluginError, match=r"there is no RecoveryBehavior .* did you mean clear_costmap_recovery/Cl"):
         create(RecoveryBehavior, "clear_costmap_recovery/ClearCostmapRecoveri")
 
 

@@ -51,9 +51,7 @@ def test_one_without_the_goal_fails_as_others_do():
 
 def test_it_is_stepped_in_a_page():
     view = show_steps({"mine": made()}, title="By hand")
-    assert view.text == (
-        "By hand\nmine: 6 cells taken up, 7 of 8 reached, path of 4.0 cells, potential 6 at the goal"
-    )
+    assert view.text == ("By hand\nmine: 6 cells taken up, 7 of 8 reached, path of 4.0 cells, potential 6 at the goal")
 
 
 def test_what_does_not_fit_is_refused():

@@ -40,9 +40,7 @@ def test_a_plan_begins_at_the_robot_ends_at_the_goal_and_is_published():
 def test_a_goal_in_a_wall_needs_a_tolerance():
     made, graph, heard = planner(NavfnROS, room())
     goal = pose(0.82, -1.0)
-    with pytest.raises(
-        GoalBlocked, match=r"\(0\.85, -0\.95\) is blocked: its cell has the cost 254"
-    ) as caught:
+    with pytest.raises(GoalBlocked, match=r"\(0\.85, -0\.95\) is blocked: its cell has the cost 254") as caught:
         made.make_plan(pose(0.0, -1.0), goal)
     assert caught.value.numbers["distance"] == pytest.approx(0.1)
     graph.run(0.1)

@@ -84,8 +84,7 @@ def test_large_messages(tmp_path: Path, compression: str) -> None:
             read.append((topic, message.data.encode() if topic == "/chatter" else message.data))
     assert read == written
     script = (
-        "import sys, rosbags.rosbag1 as r\n"
-        "print(sum(len(m[2]) for m in r.Reader(sys.argv[1]).__enter__().messages()))"
+        "import sys, rosbags.rosbag1 as r\nprint(sum(len(m[2]) for m in r.Reader(sys.argv[1]).__enter__().messages()))"
     )
     done = run([sys.executable, "-c", script, str(path)])
     with Bag(path) as bag:
@@ -148,9 +147,7 @@ def test_we_read_those_of_rosbags(path, compression):
     if compression != "none":
         writer.set_compression(getattr(Writer.CompressionFormat, compression.upper()))
     with writer:
-        conn = writer.add_connection(
-            "/chatter", "std_msgs/msg/String", typestore=store, callerid="/x", latching=1
-        )
+        conn = writer.add_connection("/chatter", "std_msgs/msg/String", typestore=store, callerid="/x", latching=1)
         for i in range(10):
             writer.write(conn, 10**9 * i, String._encode(String(str(i))))
     with Bag(path) as bag:
@@ -171,10 +168,7 @@ def test_connection_headers_are_kept_to_the_byte(path, tmp_path):
         copies.append(tmp_path / name)
     filter_bag(copies[-1], tmp_path / "f", "True")
     merge([tmp_path / "f", path], tmp_path / "merged")
-    raws = [
-        [conn.raw for conn in Bag(copy).connections()]
-        for copy in (*copies, tmp_path / "f", tmp_path / "merged")
-    ]
+    raws = [[conn.raw for conn in Bag(copy).connections()] for copy in (*copies, tmp_path / "f", tmp_path / "merged")]
     assert all(raw == raws[0] for raw in raws)
     assert b"extra=kept" in raws[0][0]
     headers = [header["callerid"] for *_, header in Bag(path).read_messages(return_connection_header=True)]
@@ -189,9 +183,7 @@ def test_topics_times_and_filters(path):
         assert {topic for topic, _, _ in bag.read_messages(topics=["/scan"])} == {"/scan"}
         some = list(bag.read_messages("/chatter", start_time=Time(103), end_time=Time(104)))
         assert [m.data for _, m, _ in some] == [f"hello {i}" for i in range(30, 41)]
-        chosen = bag.read_messages(
-            connection_filter=lambda topic, kind, md5, text, header: kind == LaserScan._type
-        )
+        chosen = bag.read_messages(connection_filter=lambda topic, kind, md5, text, header: kind == LaserScan._type)
         assert sum(1 for _ in chosen) == 10
         assert bag.get_message_count(["/scan", "/chatter"]) == 110
         assert (bag.get_start_time(), bag.get_end_time()) == (100.0, 109.9)
@@ -283,11 +275,7 @@ def test_what_follows_damage_is_saved(path, compression, where):
         at = chunk.position if where == "chunk" else chunk.data_position + chunk.compressed
         index_position = whole.index(b"index_pos=") + 10
         path.write_bytes(
-            whole[:index_position]
-            + bytes(8)
-            + whole[index_position + 8 : at]
-            + b"\xff" * 12
-            + whole[at + 12 :]
+            whole[:index_position] + bytes(8) + whole[index_position + 8 : at] + b"\xff" * 12 + whole[at + 12 :]
         )
         result = reindex(path)
         found = [(m.connection.topic, m.time, m.data) for m in Bag(path).read_raw()]
@@ -417,11 +405,7 @@ def test_unknown_and_changed_types_are_read_with_the_bags_definition(path):
         for _, message, _ in bag:
             assert (message.data, message.since, message.part.x) == ("hi", 7, 0.5)
         changed, unknown = sorted(changed_types(bag), key=lambda change: change.local is None)
-        assert (changed.type, changed.local, changed.topics) == (
-            "std_msgs/String",
-            String._md5sum,
-            ("/chatter",),
-        )
+        assert (changed.type, changed.local, changed.topics) == ("std_msgs/String", String._md5sum, ("/chatter",))
         assert (unknown.type, unknown.local) == ("my_msgs/Whole", None)
         assert re.match(r"std_msgs/String \[1+\] on /chatter: here it is", str(changed))
 
@@ -437,16 +421,11 @@ def test_filter(path, tmp_path):
     assert filter_bag(path, out, "topic == '/chatter' and t.to_sec() >= 105") == (50, 110)
     assert texts(Bag(out)) == [f"hello {i}" for i in range(50, 100)]
     assert (
-        filter_bag(
-            path, out, "topic == '/scan' and max(m.ranges) > 25 and any(r > 0 for r in m.ranges)"
-        ).written
-        == 7
+        filter_bag(path, out, "topic == '/scan' and max(m.ranges) > 25 and any(r > 0 for r in m.ranges)").written == 7
     )
     assert filter_bag(path, out, "len(m.data) == 7 if topic != '/scan' else False").written == 10
     before = out.read_bytes()
-    with pytest.raises(
-        FilterError, match=r"failed on a sensor_msgs/LaserScan of /scan.*Test the topic first"
-    ):
+    with pytest.raises(FilterError, match=r"failed on a sensor_msgs/LaserScan of /scan.*Test the topic first"):
         filter_bag(path, out, "m.data == 'x'")
     assert out.read_bytes() == before
     assert list(tmp_path.glob("*.part")) == []

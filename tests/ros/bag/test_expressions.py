@@ -126,13 +126,10 @@ def test_nothing_costs_more_than_it_may(text: str) -> None:
 
 def test_an_error_says_what_to_write() -> None:
     with pytest.raises(
-        FilterError,
-        match=r"a sensor_msgs/LaserScan has no 'rangs': did you mean ranges.*Test the topic first",
+        FilterError, match=r"a sensor_msgs/LaserScan has no 'rangs': did you mean ranges.*Test the topic first"
     ):
         value("m.rangs[0] > 1")
-    with pytest.raises(
-        FilterError, match=r"there is no 'tpic'; did you mean topic.*An example: topic == '/scan'"
-    ):
+    with pytest.raises(FilterError, match=r"there is no 'tpic'; did you mean topic.*An example: topic == '/scan'"):
         value("tpic == '/scan'")
 
 
@@ -144,24 +141,21 @@ parts = st.sampled_from([
 wholes = st.recursive(
     parts,
     lambda part: st.one_of(
-        st.tuples(
-            part, st.sampled_from(["+", "*", "**", "%", "<<", "//", "==", "in", "and", "is"]), part
-        ).map(lambda each: f"({' '.join(each)})"),
+        st.tuples(part, st.sampled_from(["+", "*", "**", "%", "<<", "//", "==", "in", "and", "is"]), part).map(
+            lambda each: f"({' '.join(each)})"
+        ),
         st.tuples(part, part).map(lambda each: f"{each[0]}[{each[1]}]"),
         st.tuples(part, part).map(lambda each: f"{each[0]}({each[1]})"),
         st.tuples(part, part).map(lambda each: f"[{each[0]} for i in {each[1]}]"),
         st.tuples(
             part,
-            st.sampled_from(
-                ["real", "gi_frame", "ranges", "header", "format", "join", "split", "__dict__", "to_sec"]
-            ),
+            st.sampled_from(["real", "gi_frame", "ranges", "header", "format", "join", "split", "__dict__", "to_sec"]),
         ).map(".".join),
         st.tuples(part, st.sampled_from(["join", "split", "format", "replace", "count", "to_sec"]), part).map(
             lambda each: f"{each[0]}.{each[1]}({each[2]})"
         ),
         st.tuples(
-            st.sampled_from(["list", "str", "sum", "max", "sorted", "int", "repr", "eval", "getattr", "map"]),
-            part,
+            st.sampled_from(["list", "str", "sum", "max", "sorted", "int", "repr", "eval", "getattr", "map"]), part
         ).map(lambda each: f"{each[0]}({each[1]})"),
         st.tuples(part, part, part).map(lambda each: f"({each[0]} if {each[1]} else {each[2]})"),
         st.tuples(part, part).map(lambda each: f"(lambda i: {each[0]})({each[1]})"),

@@ -73,10 +73,7 @@ TRAPS = {
     "field name": ("p/T", "int32 a;open('trap','w')\n"),
     "field with a tab": ("p/T", "string[]\ta\n"),
     "type of a field": ("p/T", f"p/{TRAP} a\n{'=' * 80}\nMSG: p/{TRAP}\nint32 a\n"),
-    "nested": (
-        "p/T",
-        f"p/N a\n{'=' * 80}\nMSG: p/N\nint32 a\n{'=' * 80}\nMSG: p/{TRAP}\nint32 b\nbad line here\n",
-    ),
+    "nested": ("p/T", f"p/N a\n{'=' * 80}\nMSG: p/N\nint32 a\n{'=' * 80}\nMSG: p/{TRAP}\nint32 b\nbad line here\n"),
     "constant": ("p/T", "bool A=open('trap','w')\nint32 a\n"),
     "number": ("p/T", "int32 A=__import__('os').abort()\n"),
     "array": ("p/T", "int32[open('trap','w')] a\n"),
@@ -135,11 +132,7 @@ def pack(compression: str, data: bytes) -> bytes:
     ("claimed", "real", "said"),
     [
         (1000, 50 * MEGABYTE, "should have 1,000 bytes and has more than 1,000"),
-        (
-            2**32 - 1,
-            100,
-            f"has .* bytes and claims to hold 4,294,967,295; at most {TRUSTED_CHUNK:,} are unpacked",
-        ),
+        (2**32 - 1, 100, f"has .* bytes and claims to hold 4,294,967,295; at most {TRUSTED_CHUNK:,} are unpacked"),
         (TRUSTED_CHUNK, 100, f"should have {TRUSTED_CHUNK:,} bytes and has 100"),
     ],
 )
@@ -186,13 +179,7 @@ def attempt(path: Path) -> None:
     for allow in (False, True):
         try:
             with Bag(path, allow_unindexed=allow) as bag:
-                for look in (
-                    info_text,
-                    info_yaml,
-                    list,
-                    Bag.get_type_and_topic_info,
-                    Bag.get_compression_info,
-                ):
+                for look in (info_text, info_yaml, list, Bag.get_type_and_topic_info, Bag.get_compression_info):
                     try:
                         look(bag)
                     except RosminiError as error:
@@ -210,9 +197,7 @@ def samples(folder: Path) -> list[bytes]:
             for i in range(6):
                 bag.write("/topic", String(f"hello {i}"), Time(100 + i))
                 bag.write("/scan", LaserScan(ranges=[1.0, 2.0]), Time(100 + i, 5))
-            bag.connect(
-                connection(0, "/odd", {"type": "p/T", "md5sum": "0", "message_definition": "int32[] a\n"})
-            )
+            bag.connect(connection(0, "/odd", {"type": "p/T", "md5sum": "0", "message_definition": "int32[] a\n"}))
         whole = path.read_bytes()
         found += [whole, whole[:-700]]
     return found
@@ -232,11 +217,7 @@ def mutated(rng: random.Random, data: bytes) -> bytes:
         for at in _all(data, name)
     ]  # fmt: skip
     for _ in range(rng.randint(1, 4)):
-        at = (
-            rng.choice(interesting) + rng.randint(-10, 12)
-            if rng.random() < 0.7
-            else rng.randrange(len(changed))
-        )
+        at = rng.choice(interesting) + rng.randint(-10, 12) if rng.random() < 0.7 else rng.randrange(len(changed))
         at = min(max(at, 13), len(changed) - 9)
         kind = rng.randrange(6)
         if kind == 0:
@@ -249,10 +230,7 @@ def mutated(rng: random.Random, data: bytes) -> bytes:
             del changed[at : at + rng.choice([1, 4, 100])]
         elif kind == 4:
             other = rng.randrange(13, len(changed) - 20)
-            changed[at : at + 8], changed[other : other + 8] = (
-                changed[other : other + 8],
-                changed[at : at + 8],
-            )
+            changed[at : at + 8], changed[other : other + 8] = (changed[other : other + 8], changed[at : at + 8])
         else:
             changed[at:at] = changed[at : at + rng.choice([1, 4, 50])]
         if len(changed) < 100:
@@ -327,8 +305,7 @@ def test_a_stream_is_named(path: Path) -> None:
         Bag(io.BytesIO())
     fields = pack_fields({"op": b"\3"})
     with pytest.raises(
-        ROSBagUnindexedException,
-        match=r"the bag has no index that can be read: .* no valid field 'index_pos'",
+        ROSBagUnindexedException, match=r"the bag has no index that can be read: .* no valid field 'index_pos'"
     ):
         Bag(io.BytesIO(MAGIC + u32.pack(len(fields)) + fields + u32.pack(0)))
 

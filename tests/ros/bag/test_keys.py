@@ -51,9 +51,7 @@ def test_keys_of_a_terminal(bag):
         assert player.played == 10
         assert termios.tcgetattr(theirs) == before
     os.close(ours)
-    assert shown.getvalue().startswith(
-        "\nHit space to toggle paused, or 's' to step.\n\r [PAUSED ]  Bag Time:"
-    )
+    assert shown.getvalue().startswith("\nHit space to toggle paused, or 's' to step.\n\r [PAUSED ]  Bag Time:")
     assert shown.getvalue().endswith("\nDone.\n")
 
 

@@ -76,9 +76,7 @@ def test_what_does_not_go_together_is_named_and_nothing_is_written(tmp_path: Pat
     target = tmp_path / "new.bag"
     fixed = fix_bag(source, target)
     assert fixed.copied is None
-    assert list(fixed.obstacles.values()) == [
-        ("the field data was int32 and is string", "the field lost is gone")
-    ]
+    assert list(fixed.obstacles.values()) == [("the field data was int32 and is string", "the field lost is gone")]
     assert [path.name for path in tmp_path.iterdir()] == ["old.bag"]
     assert fix_bag(source, target, force=True).copied == (1, 1)
     with Bag(target) as bag:
@@ -90,9 +88,7 @@ def test_what_is_not_changed_or_unknown_stays_as_it_is(tmp_path: Path) -> None:
     source = record(tmp_path / "old.bag", String("same"), unknown)
     assert fix_bag(source, tmp_path / "new.bag").copied == (2, 2)
     with Bag(source) as before, Bag(tmp_path / "new.bag") as after:
-        assert [message.data for message in after.read_raw()] == [
-            message.data for message in before.read_raw()
-        ]
+        assert [message.data for message in after.read_raw()] == [message.data for message in before.read_raw()]
         assert [conn.raw for conn in after.connections()] == [conn.raw for conn in before.connections()]
 
 
@@ -101,10 +97,7 @@ def test_differences_and_messages() -> None:
     assert differences(String, new_field) == ["the field more is new"]
     assert differences(String, String) == []
     assert migrated(String("a"), new_field).data == "a"
-    array = old(
-        "geometry_msgs/Polygon",
-        f"geometry_msgs/Point32 points\n{RULE}\nMSG: geometry_msgs/Point32\nfloat32 x",
-    )
+    array = old("geometry_msgs/Polygon", f"geometry_msgs/Point32 points\n{RULE}\nMSG: geometry_msgs/Point32\nfloat32 x")
     assert differences(array, PolygonStamped._nested["geometry_msgs/Polygon"]) == [
         "the field points was geometry_msgs/Point32 and is geometry_msgs/Point32[]"
     ]
@@ -116,9 +109,7 @@ def test_a_bag_is_not_written_over_itself(tmp_path: Path) -> None:
         fix_bag(source, source)
 
 
-def test_the_command(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.chdir(tmp_path)
     record(tmp_path / "old.bag", polygon())
     record(tmp_path / "hard.bag", old("std_msgs/String", "int32 data")(data=3))

@@ -80,9 +80,7 @@ def test_the_connection_headers_are_those_of_the_graph(graph, tmp_path):
     graph.node("map_server").publisher("map", String, latch=True).publish("world")
     graph.run(until=lambda: all(lane.idle for lane in lanes))
     recorder.stop()
-    headers = {
-        (conn.topic, conn.caller): conn for conn in Bag(tmp_path / "x.bag").connections(["/chatter", "/map"])
-    }
+    headers = {(conn.topic, conn.caller): conn for conn in Bag(tmp_path / "x.bag").connections(["/chatter", "/map"])}
     assert set(headers) == {("/chatter", "/one"), ("/chatter", "/two"), ("/map", "/map_server")}
     assert headers["/map", "/map_server"].latching
     assert list(headers["/chatter", "/one"].header) == [
@@ -213,8 +211,7 @@ for number in range(50 + int({count})):
 
 @pytest.mark.skipif(sys.platform == "win32", reason="limits of file sizes are POSIX's")
 @pytest.mark.parametrize(
-    ("count", "words"),
-    [(1000, []), (60, []), *nightly((1000, ["--lz4"]), (1000, ["--split", "--size", "1"]))],
+    ("count", "words"), [(1000, []), (60, []), *nightly((1000, ["--lz4"]), (1000, ["--split", "--size", "1"]))]
 )
 def test_a_recording_on_a_full_disk_fails_and_stays_readable(tmp_path, count, words):
     script = tmp_path / "talker.py"
@@ -296,24 +293,12 @@ def bag(tmp_path: Path) -> Path:
                 "topic": topic, "type": cls._type,
             }  # fmt: skip
 
-        bag.write(
-            "/map", String("world"), Time(50), connection_header=header("/map", String, "/map_server", "1")
-        )
+        bag.write("/map", String("world"), Time(50), connection_header=header("/map", String, "/map_server", "1"))
         for caller, child in (("/one", "laser"), ("/two", "imu")):
             message = TFMessage([TransformStamped(child_frame_id=child)])
-            bag.write(
-                "/tf_static",
-                message,
-                Time(50),
-                connection_header=header("/tf_static", TFMessage, caller, "1"),
-            )
+            bag.write("/tf_static", message, Time(50), connection_header=header("/tf_static", TFMessage, caller, "1"))
         for i in range(10):
-            bag.write(
-                "/chatter",
-                String(str(i)),
-                Time(50 + i),
-                connection_header=header("/chatter", String, "/t", "0"),
-            )
+            bag.write("/chatter", String(str(i)), Time(50 + i), connection_header=header("/chatter", String, "/t", "0"))
     return path
 
 

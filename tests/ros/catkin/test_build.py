@@ -30,9 +30,7 @@ def test_what_is_made_can_be_imported(bench: Bench) -> None:
         "import talk.msg, talk.srv\n"
         "print(talk.msg.Num._md5sum, talk.srv.Add._request_class is talk.srv.AddRequest, talk.msg.Num(num=3).num)\n"
     )
-    env = dict(
-        os.environ, ROS_PACKAGE_PATH=str(bench.base / "src"), PYTHONPATH=str(bench.base / "devel" / PYTHON)
-    )
+    env = dict(os.environ, ROS_PACKAGE_PATH=str(bench.base / "src"), PYTHONPATH=str(bench.base / "devel" / PYTHON))
     done = run([sys.executable, "-c", code], env=env, check=True)
     assert done.stdout.split()[1:] == ["True", "3"]
     relayed = run([sys.executable, bench.base / "devel/lib/talk/talker.py"], check=True)
@@ -55,9 +53,7 @@ def test_only_what_changed_is_made_again(bench: Bench) -> None:
 def test_a_package_is_made_again_when_the_messages_that_it_uses_change(bench: Bench) -> None:
     bench.package("lower")
     bench.package("upper", "lower")
-    bench.change(
-        "upper", "CMakeLists.txt", "std_msgs message_generation", "std_msgs lower message_generation"
-    )
+    bench.change("upper", "CMakeLists.txt", "std_msgs message_generation", "std_msgs lower message_generation")
     bench.change("upper", "CMakeLists.txt", "DEPENDENCIES std_msgs", "DEPENDENCIES std_msgs lower")
     bench.write("upper", "msg/Num.msg", "lower/Num num\n")
     assert bench.make().order == ("lower", "upper")
@@ -120,9 +116,7 @@ def test_actions_python_modules_and_variables(bench: Bench) -> None:
     assert [str(each) for each in report.findings if each.is_error] == []
     assert ["acting_node is C++" in each.message for each in report.findings] == [True]
     assert "-- acting: 1 messages, 1 services, 1 actions" in bench.said
-    env = dict(
-        os.environ, ROS_PACKAGE_PATH=str(bench.base / "src"), PYTHONPATH=str(bench.base / "devel" / PYTHON)
-    )
+    env = dict(os.environ, ROS_PACKAGE_PATH=str(bench.base / "src"), PYTHONPATH=str(bench.base / "devel" / PYTHON))
     code = "import acting\nfrom acting.msg import WashAction, WashGoal, Num\n"
     code += "print(acting.answer, WashGoal(dishes=2).dishes)"
     assert run([sys.executable, "-c", code], env=env, check=True).stdout == "42 2\n"
@@ -200,22 +194,13 @@ ERRORS: list[tuple[Callable[[Bench], object], str]] = [
         change(CMAKE, "catkin_package(CATKIN_DEPENDS std_msgs message_runtime)", ""),
         r"error: catkin_package\(\) is missing",
     ),
-    (
-        change(CMAKE, "find_package(catkin REQUIRED COMPONENTS rospy std_msgs message_generation)", ""),
-        "find_package",
-    ),
-    (
-        change(CMAKE, " message_generation)", ")"),
-        r"CMakeLists\.txt:3: error: message_generation is missing among",
-    ),
+    (change(CMAKE, "find_package(catkin REQUIRED COMPONENTS rospy std_msgs message_generation)", ""), "find_package"),
+    (change(CMAKE, " message_generation)", ")"), r"CMakeLists\.txt:3: error: message_generation is missing among"),
     (
         change(CMAKE, "COMPONENTS rospy std_msgs", "COMPONENTS rospy"),
         r"CMakeLists\.txt:6: error: .* depends on std_msgs",
     ),
-    (
-        change(CMAKE, "DEPENDENCIES std_msgs", ""),
-        r"Num\.msg:1: error: std_msgs/Header is used here: add std_msgs",
-    ),
+    (change(CMAKE, "DEPENDENCIES std_msgs", ""), r"Num\.msg:1: error: std_msgs/Header is used here: add std_msgs"),
     (
         change(CMAKE, "generate_messages(DEPENDENCIES std_msgs)", ""),
         r"CMakeLists\.txt:4: error: generate_messages\(\) is miss",
@@ -239,10 +224,7 @@ ERRORS: list[tuple[Callable[[Bench], object], str]] = [
     ),
     (write(TALKER, "#!/usr/bin/env python3\r\nprint(1)\r\n"), r"talker\.py:1: error: .*CRLF.*sed -i"),
     (write(TALKER, "#!/bin/bash\nprint(1)\n"), r"talker\.py:1: error: a Python script is run by '/bin/bash'"),
-    (
-        change(CMAKE, "scripts/talker.py", "scripts/taker.py"),
-        r"CMakeLists\.txt:8: error: .*did you mean talker\.py",
-    ),
+    (change(CMAKE, "scripts/talker.py", "scripts/taker.py"), r"CMakeLists\.txt:8: error: .*did you mean talker\.py"),
     (change(CMAKE, "scripts/talker.py", "../../../x.py"), r"CMakeLists\.txt:8: error: "),
     (
         change(CMAKE, "CATKIN_DEPENDS std_msgs", "CATKIN_DEPENDS tf"),
@@ -274,9 +256,7 @@ def test_a_mistake_is_an_error_and_the_other_packages_are_built(
     bench.package("sound")
     spoil(bench)
     report = bench.make()
-    assert any(re.search(says, str(each)) for each in report.findings), [
-        str(each) for each in report.findings
-    ]
+    assert any(re.search(says, str(each)) for each in report.findings), [str(each) for each in report.findings]
     assert (report.status, report.failed, report.built) == (1, ["talk"], ["sound"])
 
 
@@ -287,9 +267,7 @@ def test_what_is_odd_is_a_warning_and_the_package_is_built(
     bench.package("talk")
     spoil(bench)
     report = bench.make()
-    assert any(re.search(says, str(each)) for each in report.findings), [
-        str(each) for each in report.findings
-    ]
+    assert any(re.search(says, str(each)) for each in report.findings), [str(each) for each in report.findings]
     assert (report.status, report.built) == (0, ["talk"])
 
 
@@ -303,14 +281,10 @@ def test_a_script_without_its_run_bit_is_named(bench: Bench) -> None:
 def test_capitals_in_a_name(bench: Bench) -> None:
     bench.package("Talk")
     (finding,) = bench.make().findings
-    assert re.search(
-        r"package\.xml:3: warning: the package name 'Talk' breaks the naming conventions", str(finding)
-    )
+    assert re.search(r"package\.xml:3: warning: the package name 'Talk' breaks the naming conventions", str(finding))
 
 
-def test_what_keeps_a_whole_workspace_from_being_built(
-    tmp_path: Path, benches: Callable[[str], Bench]
-) -> None:
+def test_what_keeps_a_whole_workspace_from_being_built(tmp_path: Path, benches: Callable[[str], Bench]) -> None:
     bench = benches("ws")
     bench.package("talk")
     for base, says in (
@@ -402,9 +376,7 @@ def test_what_is_not_rebuilt_is_told_where_it_is_imported(bench: Bench) -> None:
     bench.make()
     bench.write("talk", "msg/Num.msg", "int8 changed\n")
     bench.write("talk", "msg/New.msg", "int8 added\n")
-    env = dict(
-        os.environ, ROS_PACKAGE_PATH=str(bench.base / "src"), PYTHONPATH=str(bench.base / "devel" / PYTHON)
-    )
+    env = dict(os.environ, ROS_PACKAGE_PATH=str(bench.base / "src"), PYTHONPATH=str(bench.base / "devel" / PYTHON))
     stale = run([sys.executable, "-c", "from talk.msg import Num"], env=env, check=True)
     assert "talk/Num was changed and not rebuilt: run catkin_make" in stale.stderr
     missing = run([sys.executable, "-c", "import talk.msg; talk.msg.New"], env=env)
@@ -423,8 +395,7 @@ DAMAGE = st.lists(
         st.floats(0, 1, exclude_max=True),
         st.integers(0, 12),
         st.one_of(
-            st.binary(max_size=6),
-            st.sampled_from((b"<", b">", b'"', b"${", b"(", b")", b"..", b"/", b"\0", b"\r\n")),
+            st.binary(max_size=6), st.sampled_from((b"<", b">", b'"', b"${", b"(", b")", b"..", b"/", b"\0", b"\r\n"))
         ),
     ),
     min_size=1,
@@ -445,9 +416,7 @@ def test_damaged_packages_are_built_or_told_and_nothing_is_written_elsewhere(
             data = path.read_bytes()
             at = int(where * len(data))
             path.write_bytes(data[:at] + new + data[at + size :])
-        before = {
-            path for path in bench.base.parent.rglob("*") if bench.base / "src" in (path, *path.parents)
-        }
+        before = {path for path in bench.base.parent.rglob("*") if bench.base / "src" in (path, *path.parents)}
         refused = ""
         try:
             report = bench.make()

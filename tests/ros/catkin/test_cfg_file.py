@@ -97,11 +97,7 @@ def test_a_planner() -> None:
     assert found["heading"].level == 8
     assert found["vx_samples"].max == 2**31 - 1
     rows = [(each.name, each.type, each.state, each.id, each.parent) for each in found.groups]
-    assert rows == [
-        ("Default", "", True, 0, 0),
-        ("Goal_tolerance", "tab", False, 1, 0),
-        ("Turning", "", True, 2, 1),
-    ]
+    assert rows == [("Default", "", True, 0, 0), ("Goal_tolerance", "tab", False, 1, 0), ("Turning", "", True, 2, 1)]
 
 
 def test_a_camera() -> None:
@@ -215,9 +211,7 @@ CALLS = (
 HOSTILE = st.recursive(
     st.sampled_from(["gen", "PACKAGE", "int_t", "1", "'x'", "[]", "().__class__", "Spy", "gen.__init__"]),
     lambda inner: st.one_of(
-        st.tuples(st.sampled_from(CALLS), inner, inner).map(
-            lambda parts: f"{parts[0]}({parts[1]}, {parts[2]})"
-        ),
+        st.tuples(st.sampled_from(CALLS), inner, inner).map(lambda parts: f"{parts[0]}({parts[1]}, {parts[2]})"),
         st.tuples(inner, st.sampled_from("+*%.")).map(lambda parts: f"({parts[0]}) {parts[1]} x"),
         inner.map(lambda text: f"[{text} for x in {text}]"),
         inner.map(lambda text: f"(lambda: {text})()"),
@@ -243,10 +237,7 @@ def test_nothing_is_ever_run(lines: list[tuple[str, str]], with_head: bool) -> N
 
 
 @given(
-    st.one_of(
-        st.binary(max_size=200),
-        st.text(max_size=200).map(lambda text: (HEAD + text).encode("utf-8", "replace")),
-    )
+    st.one_of(st.binary(max_size=200), st.text(max_size=200).map(lambda text: (HEAD + text).encode("utf-8", "replace")))
 )
 def test_any_bytes_are_read_or_are_an_error_of_ours(data: bytes) -> None:
     with TemporaryDirectory() as folder:

@@ -20,9 +20,7 @@ Pose = message_class("geometry_msgs/Pose")
 
 
 def update(number: int, *names: str, **fields: Any) -> Any:
-    return Update(
-        server_id="s", seq_num=number, type=Update.UPDATE, markers=[marker(name) for name in names], **fields
-    )
+    return Update(server_id="s", seq_num=number, type=Update.UPDATE, markers=[marker(name) for name in names], **fields)
 
 
 def init(number: int, *names: str) -> Any:

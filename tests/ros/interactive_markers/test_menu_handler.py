@@ -53,9 +53,7 @@ def test_the_entry_that_is_chosen_is_called(graph: Graph, server: InteractiveMar
     menu.apply(server, "box")
     graph.run(1.5)
     for entry in (1, 2, 9):
-        server.processFeedback(
-            Feedback(marker_name="box", event_type=Feedback.MENU_SELECT, menu_entry_id=entry)
-        )
+        server.processFeedback(Feedback(marker_name="box", event_type=Feedback.MENU_SELECT, menu_entry_id=entry))
     assert called == [2]
 
 

@@ -40,9 +40,7 @@ class Rviz:
         graph.run(0.1)
 
     def says(self, event: int, name: str = "box", x: float = 0.0) -> None:
-        self.publisher.publish(
-            Feedback(client_id=self.name, marker_name=name, event_type=event, pose=pose(x))
-        )
+        self.publisher.publish(Feedback(client_id=self.name, marker_name=name, event_type=event, pose=pose(x)))
         self.graph.run(0.01)
 
     def changes(self) -> list[Any]:
@@ -54,9 +52,7 @@ def server(graph: Graph) -> InteractiveMarkerServer:
     return InteractiveMarkerServer(graph.node("node"), "basic", "/one")
 
 
-def test_changes_are_numbered_and_seen_when_they_are_applied(
-    graph: Graph, server: InteractiveMarkerServer
-) -> None:
+def test_changes_are_numbered_and_seen_when_they_are_applied(graph: Graph, server: InteractiveMarkerServer) -> None:
     rviz = Rviz(graph)
     server.insert(marker())
     graph.run(0.1)
@@ -72,16 +68,12 @@ def test_changes_are_numbered_and_seen_when_they_are_applied(
     assert [update.seq_num for update in (added, moved, erased)] == [1, 2, 3]
     assert added.server_id == "/node/one"
     assert [one.name for one in added.markers] == ["box"]
-    assert [(one.name, one.pose.position.x, one.header.frame_id) for one in moved.poses] == [
-        ("box", 2, "base")
-    ]
+    assert [(one.name, one.pose.position.x, one.header.frame_id) for one in moved.poses] == [("box", 2, "base")]
     assert list(erased.erases) == ["box"]
     assert rviz.inits[-1].markers == []
 
 
-def test_who_comes_later_gets_all_markers_as_of_a_number(
-    graph: Graph, server: InteractiveMarkerServer
-) -> None:
+def test_who_comes_later_gets_all_markers_as_of_a_number(graph: Graph, server: InteractiveMarkerServer) -> None:
     for number, name in enumerate("ab"):
         server.insert(marker(name, x=float(number)))
         server.applyChanges()
@@ -121,9 +113,7 @@ def test_feedback_moves_the_marker_and_calls_what_is_set_for_its_type(
     assert [one.name for one in rviz.changes()[0].poses] == ["box"]
 
 
-def test_a_marker_in_use_is_not_taken_by_another_client(
-    graph: Graph, server: InteractiveMarkerServer
-) -> None:
+def test_a_marker_in_use_is_not_taken_by_another_client(graph: Graph, server: InteractiveMarkerServer) -> None:
     called: list[str] = []
     server.insert(marker(), lambda one: called.append(one.client_id))
     server.applyChanges()

@@ -53,9 +53,7 @@ def test_a_master_is_asked_in_somebodys_name() -> None:
 
     def answer(body: bytes) -> bytes:
         asked.append(xmlrpc.client.loads(body))
-        return triple(
-            *({"lookupNode": (-1, "unknown node", 0)}.get(asked[-1][1], (1, "", [["/t", "std_msgs/Empty"]])))
-        )
+        return triple(*({"lookupNode": (-1, "unknown node", 0)}.get(asked[-1][1], (1, "", [["/t", "std_msgs/Empty"]]))))
 
     with answering(answer) as uri:
         wire = DirectWire(uri)

@@ -26,9 +26,7 @@ class MoveBase:
         parts = re.split(r"\n(?:Publications|Subscriptions|Services): \n", head)[1:]
         topics = [re.findall(r"^ \* (\S+)(?: \[(.*)\])?$", part, re.MULTILINE) for part in parts]
         self.kinds = [list(pair) for part in topics for pair in part if pair[1] not in ("", "unknown type")]
-        self.links = [
-            re.findall(r": (.*)", block) for block in re.split(r"^ \* topic", tail, flags=re.MULTILINE)[1:]
-        ]
+        self.links = [re.findall(r": (.*)", block) for block in re.split(r"^ \* topic", tail, flags=re.MULTILINE)[1:]]
         self.state = [[[name, [NAME]] for name, _ in part] for part in topics]
         self.uris = {NAME: URI}
         for topic, to, *_ in self.links:
@@ -72,11 +70,7 @@ def test_move_base_is_described_as_the_real_tool_does() -> None:
 
 
 def test_connections_of_older_clients_count_as_open_and_closed_ones_are_left_out() -> None:
-    rows = [
-        [1, "/a", "o", "TCPROS", "/t"],
-        [2, "/b", "x", "UDPROS", "/u", True],
-        [3, "/c", "i", "TCPROS", "/v", False],
-    ]
+    rows = [[1, "/a", "o", "TCPROS", "/t"], [2, "/b", "x", "UDPROS", "/u", True], [3, "/c", "i", "TCPROS", "/v", False]]
     answers = {"getPid": [1, "", 7], "getBusInfo": [1, "", rows]}
     peers: Any = SimpleNamespace(
         ask_as=lambda _: SimpleNamespace(ask=lambda *_: [[], [], []]),

@@ -70,13 +70,7 @@ def test_a_server_elsewhere_is_asked_for_its_header() -> None:
 
 @pytest.mark.parametrize(
     "answer",
-    [
-        b"",
-        b"\x01\x02",
-        struct.pack("<I", 2**31),
-        struct.pack("<I", 9) + b"abc",
-        struct.pack("<I", 4) + b"\xff" * 4,
-    ],
+    [b"", b"\x01\x02", struct.pack("<I", 2**31), struct.pack("<I", 9) + b"abc", struct.pack("<I", 4) + b"\xff" * 4],
 )
 def test_a_server_that_answers_nonsense(answer: bytes) -> None:
     with (
@@ -87,9 +81,7 @@ def test_a_server_that_answers_nonsense(answer: bytes) -> None:
         wire.probe_service(uri, {"probe": "1"})
 
 
-@pytest.mark.parametrize(
-    "uri", ["rosrpc://127.0.0.1:99999", "nonsense", "rosrpc://[::1", "rosrpc://127.0.0.1:{}"]
-)
+@pytest.mark.parametrize("uri", ["rosrpc://127.0.0.1:99999", "nonsense", "rosrpc://[::1", "rosrpc://127.0.0.1:{}"])
 def test_an_address_at_which_nobody_is(uri: str) -> None:
     with DirectWire("http://127.0.0.1:1") as wire, pytest.raises(TransportException, match="no answer"):
         wire.probe_service(uri.format(free_port()), {"probe": "1"})

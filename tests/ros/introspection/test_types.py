@@ -14,9 +14,7 @@ def test_constants_come_first_and_nested_fields_are_indented() -> None:
         "a/Outer": parse_message("Inner[2] many\nuint8 ON=1 # a comment\nstring text", "a/Outer"),
         "a/Inner": parse_message("float64 x", "a/Inner"),
     }
-    assert (
-        tree(specs["a/Outer"], specs.__getitem__) == "uint8 ON=1\na/Inner[2] many\n  float64 x\nstring text\n"
-    )
+    assert tree(specs["a/Outer"], specs.__getitem__) == "uint8 ON=1\na/Inner[2] many\n  float64 x\nstring text\n"
 
 
 def test_messages_of_actions_are_listed() -> None:

@@ -127,10 +127,7 @@ def test_the_picture_has_the_first_cause_above(graph: Graph) -> None:
     picture = why.show(title="Figure 1: why")
     assert picture.text == str(why)
     assert picture.caption == "Figure 1: why"
-    first, last = (
-        picture.svg.rindex("/laser published message 5"),
-        picture.svg.rindex("/stop published message 5"),
-    )
+    first, last = (picture.svg.rindex("/laser published message 5"), picture.svg.rindex("/stop published message 5"))
     assert first < last
     assert picture.alt.startswith("Chain of causes, the first one first. /laser published message 5 on /scan")
 

@@ -264,9 +264,7 @@ def test_a_damaged_file_is_read_or_refused_at_its_place(source: str, data: st.Da
     start = data.draw(st.integers(0, len(source)))
     end = data.draw(st.integers(start, min(len(source), start + 40)))
     put = data.draw(
-        st.sampled_from(
-            ["", "<", ">", '"', "$(", ")", "$(arg x)", "$(eval 1/0)", "&x;", "\0", "<node/>", "ns=''"]
-        )
+        st.sampled_from(["", "<", ">", '"', "$(", ")", "$(arg x)", "$(eval 1/0)", "&x;", "\0", "<node/>", "ns=''"])
         | st.text(max_size=8)
     )
     text = source[:start] + put + source[end:]

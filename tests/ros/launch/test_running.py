@@ -24,9 +24,7 @@ def graph() -> Iterator[Graph]:
         yield made
 
 
-def started(
-    graph: Graph, inside: str, folder: Path, monkeypatch: Any
-) -> tuple[Launch, io.StringIO, list[str]]:
+def started(graph: Graph, inside: str, folder: Path, monkeypatch: Any) -> tuple[Launch, io.StringIO, list[str]]:
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(make(folder)))
     said: list[str] = []
     out = io.StringIO()
@@ -50,14 +48,10 @@ def test_nodes_run_with_their_names_environment_and_parameters(
         monkeypatch,
     )
     heard: list[str] = []
-    graph.node("ear").subscriber(
-        "/robot1/news", message_class("std_msgs/String"), lambda m: heard.append(m.data)
-    )
+    graph.node("ear").subscriber("/robot1/news", message_class("std_msgs/String"), lambda m: heard.append(m.data))
     graph.run(1.0)
     assert heard == ["good morning"]
-    assert "[robot1/first] /robot1/first 1 /robot1/news" in out.getvalue().replace(
-        "[first]", "[robot1/first]"
-    )
+    assert "[robot1/first] /robot1/first 1 /robot1/news" in out.getvalue().replace("[first]", "[robot1/first]")
     assert "/second 2 /chatter" in out.getvalue()
     assert said == ["process[robot1/first-1]: started", "process[second-2]: started"]
     state = launch.stop()
@@ -76,19 +70,14 @@ def test_a_node_finds_its_namespace_in_its_environment(
     (folder / "speaking" / "scripts" / "talker.py").write_text(script, encoding="utf-8")
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(folder))
     node = '<node pkg="speaking" type="talker.py" name="talker" output="screen"/>'
-    plan = read(
-        text=f'<launch>{node}<group ns="robot1"><group ns="arm">{node}</group></group></launch>',
-        namespace="/",
-    )
+    plan = read(text=f'<launch>{node}<group ns="robot1"><group ns="arm">{node}</group></group></launch>', namespace="/")
     out = io.StringIO()
     Launch(plan, graph, in_graph(graph, stdout=out, stderr=out)).start()
     graph.run(1.0)
     assert {line.split()[-1] for line in out.getvalue().splitlines()} == {"/", "/robot1/arm"}
 
 
-def test_a_node_is_respawned_after_its_delay(
-    graph: Graph, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_node_is_respawned_after_its_delay(graph: Graph, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     node = '<node pkg="speaking" type="ending.py" name="n" args="1 3" respawn="true" respawn_delay="2"/>'
     launch, out, said = started(graph, node, tmp_path, monkeypatch)
     launch.wait(8.5)  # 1 s of life, 2 s of rest
@@ -99,9 +88,7 @@ def test_a_node_is_respawned_after_its_delay(
     assert launch.over()
 
 
-def test_the_end_of_a_required_node_ends_all(
-    graph: Graph, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_end_of_a_required_node_ends_all(graph: Graph, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     launch, _, said = started(
         graph,
         '<node pkg="speaking" type="talker.py" name="talker"/>\n'
@@ -116,9 +103,7 @@ def test_the_end_of_a_required_node_ends_all(
     assert launch.required_ended is not None
 
 
-def test_the_end_of_the_graph_is_no_death_of_a_required_node(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_end_of_the_graph_is_no_death_of_a_required_node(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with Graph(strict=False) as graph:
         boss = '<node pkg="speaking" type="talker.py" name="boss" required="true"/>'
         launch, _, said = started(graph, boss, tmp_path, monkeypatch)
@@ -144,9 +129,7 @@ def test_a_node_that_cannot_be_started_is_told_and_the_others_run(
     assert [node.name for node in launch.failed] == ["a"]
 
 
-def test_a_script_that_ignores_signals_is_killed(
-    graph: Graph, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_script_that_ignores_signals_is_killed(graph: Graph, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     node = '<node pkg="speaking" type="stubborn.py" name="n"/>'
     launch, _, _ = started(graph, node, tmp_path, monkeypatch)
     graph.run(1.0)
@@ -155,9 +138,7 @@ def test_a_script_that_ignores_signals_is_killed(
     assert graph.now().to_sec() - before == pytest.approx(17.0)  # 15 s after SIGINT and 2 s after SIGTERM
 
 
-def test_parameters_are_cleared_deleted_and_dumped_before_the_nodes_start(
-    graph: Graph, tmp_path: Path
-) -> None:
+def test_parameters_are_cleared_deleted_and_dumped_before_the_nodes_start(graph: Graph, tmp_path: Path) -> None:
     master = graph.ask_as("/test")
     for name in ("/old/a", "/gone", "/kept"):
         master.ask("setParam", name, 1)

@@ -48,9 +48,7 @@ TALK = """<arg name="word"/>
 <node pkg="speaking" type="talker.py" name="talker"><param name="greeting" value="$(arg word)"/></node>"""
 
 
-def test_a_single_node(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_single_node(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(make(tmp_path)))
     assert run_source(SINGLE, name="starter").status == 0
     out = capsys.readouterr().out
@@ -59,9 +57,7 @@ def test_a_single_node(
     assert "alive False 0" in out
 
 
-def test_launch_files(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_launch_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(make(tmp_path, talk=TALK)))
     assert run_source(FILES, name="starter").status == 0
     out = capsys.readouterr().out

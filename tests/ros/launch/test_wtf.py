@@ -77,9 +77,7 @@ def test_packages_that_the_manifest_does_not_name(packages: PackageIndex) -> Non
         (("nowhere.launch",), "nowhere.launch"),
     ],
 )
-def test_a_file_that_cannot_be_read_is_a_finding(
-    packages: PackageIndex, words: tuple[str, ...], text: str
-) -> None:
+def test_a_file_that_cannot_be_read_is_a_finding(packages: PackageIndex, words: tuple[str, ...], text: str) -> None:
     finding = load(words, packages)
     assert isinstance(finding, Finding)
     assert text in str(finding)

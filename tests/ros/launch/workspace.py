@@ -51,7 +51,5 @@ def make(folder: Path, **launch_files: str) -> Path:
         (package / "scripts" / name).write_text(text, encoding="utf-8")
         (package / "scripts" / name).chmod(0o755)
     for name, inside in launch_files.items():
-        (package / "launch" / f"{name}.launch").write_text(
-            f"<launch>\n{inside}\n</launch>\n", encoding="utf-8"
-        )
+        (package / "launch" / f"{name}.launch").write_text(f"<launch>\n{inside}\n</launch>\n", encoding="utf-8")
     return folder / "src"

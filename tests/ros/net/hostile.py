@@ -149,9 +149,7 @@ def unharmed(graph: Graph) -> Iterator[tuple[Any, list[str]]]:
     """
     publisher, heard = talk(graph)
     network = network_of(graph)
-    network.client.call(
-        graph.nodes["/talker"].uri, "getPid", "/test"
-    )  # this connection is kept, with its task
+    network.client.call(graph.nodes["/talker"].uri, "getPid", "/test")  # this connection is kept, with its task
     held = Held(graph)
     publisher.publish("first")
     until(graph, lambda: heard == ["first"], "a message")  # so both ends are known to be open

@@ -33,11 +33,7 @@ def test_frames_come_out_whole_in_whatever_pieces_they_arrive(bodies: list[bytes
 def test_answers_of_services_begin_with_their_ok_byte() -> None:
     reader = FrameReader(ok_byte=True)
     stream = frame(b"header") + b"\x01" + frame(b"response") + b"\x00" + frame(b"")
-    assert [one for byte in stream for one in reader.feed(bytes([byte]))] == [
-        b"header",
-        b"\x01response",
-        b"\x00",
-    ]
+    assert [one for byte in stream for one in reader.feed(bytes([byte]))] == [b"header", b"\x01response", b"\x00"]
 
 
 @pytest.mark.parametrize("length", [HEADER_LIMIT + 1, 10 * 2**20, 2**32 - 1])

@@ -30,9 +30,7 @@ HTML = b"<!DOCTYPE html><html><body>It works!</body></html>"
 
 def page(status: str) -> bytes:
     """A page of the web."""
-    return (
-        f"HTTP/1.1 {status}\r\nContent-Type: text/html\r\nContent-Length: {len(HTML)}\r\n\r\n".encode() + HTML
-    )
+    return f"HTTP/1.1 {status}\r\nContent-Type: text/html\r\nContent-Length: {len(HTML)}\r\n\r\n".encode() + HTML
 
 
 class Pretender:
@@ -103,10 +101,7 @@ def in_lane(graph: Graph, task: Callable[[], Any]) -> list[Any]:
 )  # fmt: skip
 def test_a_value_of_another_type_is_no_masters(pretender: Pretender, method: str, value: Any) -> None:
     pretender.answers[method] = [1, "", value]
-    with (
-        at(pretender.server.port) as graph,
-        pytest.raises(MasterUnreachable, match="is not a ROS Master") as caught,
-    ):
+    with at(pretender.server.port) as graph, pytest.raises(MasterUnreachable, match="is not a ROS Master") as caught:
         graph.ask_as("/test").ask(method, *([] if method in ("getUri", "getSystemState") else ["/x"]))
     assert "Set ROS_MASTER_URI to the address that roscore shows" in str(caught.value)
 

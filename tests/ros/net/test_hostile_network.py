@@ -81,9 +81,7 @@ def test_a_network_that_goes_down_and_comes_back(graph: Graph) -> None:
     slave = XmlRpcServer(network_of(graph).io, lambda *_: [1, "", ["TCPROS", "127.0.0.1", cable.port]])
     far: list[str] = []
     talker = graph.nodes["/talker"].publisher("/far", String, queue_size=100)
-    graph.ask_as("/talker").ask(
-        "unregisterPublisher", "/far", graph.nodes["/talker"].uri
-    )  # the way past the cable
+    graph.ask_as("/talker").ask("unregisterPublisher", "/far", graph.nodes["/talker"].uri)  # the way past the cable
     subscriber = graph.node("far").subscriber("/far", String, lambda message: far.append(message.data))
     graph.ask_as("/behind").ask("registerPublisher", "/far", String._type, f"http://127.0.0.1:{slave.port}/")
     until(graph, lambda: cable.count and subscriber.num_connections() == 1, "the way through the cable")

@@ -110,9 +110,7 @@ def test_garbage_is_told_once_and_tried_again_ever_more_seldom(
     """As rospy does, the connection is dropped and made again; unlike there, not at once for ever."""
     heard: list[str] = []
     with unharmed(graph):
-        subscriber = graph.node("victim").subscriber(
-            TOPIC, String, lambda message: heard.append(message.data)
-        )
+        subscriber = graph.node("victim").subscriber(TOPIC, String, lambda message: heard.append(message.data))
         with publishing(graph, answer) as raw:
             until(graph, lambda: raw.count == 10 and len(delays) == 10, "ten attempts")
         graph.nodes["/victim"].shutdown()
@@ -170,9 +168,7 @@ def test_who_refuses_or_is_of_another_type_is_told_with_what_differs(
     assert "Traceback" not in "".join(said)
 
 
-@pytest.mark.parametrize(
-    "type_name", ["../../etc/passwd", "", "a/b/c", "no_such_pkg/Thing", "std_msgs/\x00", "*"]
-)
+@pytest.mark.parametrize("type_name", ["../../etc/passwd", "", "a/b/c", "no_such_pkg/Thing", "std_msgs/\x00", "*"])
 def test_a_subscriber_of_any_type_meets_an_impossible_one(
     graph: Graph, type_name: str, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -24,9 +24,7 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Graph
 
 NAME = "/evil"
-HEADER = encode_header(
-    {"callerid": "/raw", "md5sum": Trigger._md5sum, "service": NAME, "type": Trigger._type}
-)
+HEADER = encode_header({"callerid": "/raw", "md5sum": Trigger._md5sum, "service": NAME, "type": Trigger._type})
 CALLING = {"callerid": "/raw", "md5sum": "*", "service": "/ask", "persistent": "1"}
 
 
@@ -107,9 +105,7 @@ def test_a_client_that_does_not_read_gets_no_more_answers(graph: Graph) -> None:
     """Each is kept until it is read, so that nothing piles up."""
     calls: list[Any] = []
     with unharmed(graph):
-        server = graph.nodes["/talker"].service(
-            "/ask", Trigger, lambda _: (calls.append(1) or True, "x" * 500_000)
-        )
+        server = graph.nodes["/talker"].service("/ask", Trigger, lambda _: (calls.append(1) or True, "x" * 500_000))
         with at(port_of(graph, "/talker")) as raw:
             raw.sendall(encode_header(CALLING) + frame(b"") * 100)
             for _ in range(50):

@@ -123,17 +123,13 @@ def test_fuzz_at_the_port_of_a_node(graph: Graph, data: bytes, framed: bool) -> 
 
 @given(
     st.dictionaries(
-        st.sampled_from(
-            ["callerid", "type", "message_definition", "tcp_nodelay", "persistent", "probe", "x"]
-        ),
+        st.sampled_from(["callerid", "type", "message_definition", "tcp_nodelay", "persistent", "probe", "x"]),
         st.text(st.characters(exclude_categories=["Cs"]), max_size=30),
     ),
     st.sampled_from([{"topic": "/t"}, {"service": "/talker/get_loggers"}, {"topic": "/t", "service": "/t"}]),
     st.sampled_from(["*", "", "0" * 32]),
 )
-def test_fuzz_of_the_fields_of_a_header(
-    graph: Graph, fields: dict[str, str], kind: dict[str, str], md5: str
-) -> None:
+def test_fuzz_of_the_fields_of_a_header(graph: Graph, fields: dict[str, str], kind: dict[str, str], md5: str) -> None:
     if "/talker" not in graph.nodes:
         talk(graph)
     header = encode_header({**fields, **kind, "md5sum": md5})
@@ -254,9 +250,7 @@ def test_what_a_subscriber_says_after_its_header_is_thrown_away(graph: Graph) ->
             tracemalloc.stop()
 
 
-@pytest.mark.parametrize(
-    "header", [subscribing(), encode_header({"service": "/talker/get_loggers", "md5sum": "*"})]
-)
+@pytest.mark.parametrize("header", [subscribing(), encode_header({"service": "/talker/get_loggers", "md5sum": "*"})])
 def test_who_says_what_for_when_the_node_has_ended_is_refused(graph: Graph, header: bytes) -> None:
     """Else the connection would stay, with nobody to close it."""
     talk(graph)

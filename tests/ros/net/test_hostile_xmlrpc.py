@@ -91,11 +91,7 @@ def test_any_bytes_are_a_document_or_refused(data: bytes) -> None:
     ],
 )
 def test_what_is_no_call_is_refused_by_a_node(
-    graph: Graph,
-    text: bytes,
-    status: bytes,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    graph: Graph, text: bytes, status: bytes, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(http, "BODY_LIMIT", 10_000)
     with unharmed(graph):
@@ -162,9 +158,7 @@ def test_only_so_many_connections_wait(graph: Graph, monkeypatch: pytest.MonkeyP
             one.close()
 
 
-@pytest.mark.parametrize(
-    "first", [b"", b"POST / HT", HEAD + b"Content-Length: 1000\r\n\r\nx", post("getPid", "/me")]
-)
+@pytest.mark.parametrize("first", [b"", b"POST / HT", HEAD + b"Content-Length: 1000\r\n\r\nx", post("getPid", "/me")])
 @pytest.mark.parametrize("reset", [False, True])
 def test_a_thousand_connections_that_are_opened_and_dropped(
     graph: Graph, first: bytes, reset: bool, capsys: pytest.CaptureFixture[str]
@@ -189,9 +183,7 @@ VALUES = st.recursive(
     | st.sampled_from(["", "/", "/t", "~", "a b", "http://127.0.0.1:1/", "rosrpc://x:y", "std_msgs/String"])
     | st.text(st.characters(codec="utf-8", exclude_categories=["Cc", "Cs", "Cn"]), max_size=10)
     | st.binary(max_size=5),
-    lambda inner: (
-        st.lists(inner, max_size=3) | st.dictionaries(st.text("abc/", max_size=3), inner, max_size=2)
-    ),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text("abc/", max_size=3), inner, max_size=2),
     max_leaves=6,
 )
 
@@ -206,19 +198,14 @@ def test_fuzz_of_the_slave_api(graph: Graph, method: str, arguments: list[Any]) 
     graph.run(0)
 
 
-@given(
-    st.sampled_from(sorted(MASTER_METHODS - {"shutdown"}) + ["system.multicall"]),
-    st.lists(VALUES, max_size=4),
-)
+@given(st.sampled_from(sorted(MASTER_METHODS - {"shutdown"}) + ["system.multicall"]), st.lists(VALUES, max_size=4))
 def test_fuzz_of_the_master_api(graph: Graph, method: str, arguments: list[Any]) -> None:
     with served(graph) as master:
         _check(say(graph, master.port, post(method, *arguments), finish=True))
         state = say(graph, master.port, post("getSystemState", "/me"), finish=True)
         code, _, tables = _check(state)
         assert code == 1
-        assert all(
-            isinstance(name, str) for table in tables for topic, names in table for name in [topic, *names]
-        )
+        assert all(isinstance(name, str) for table in tables for topic, names in table for name in [topic, *names])
         _check(say(graph, master.port, post("getParam", "/me", "/"), finish=True))
 
 
@@ -244,31 +231,17 @@ def _check(answer: bytes) -> list[Any]:
         ["http://127.0.0.1:1/" + str(number) for number in range(30)],
     ],
 )
-def test_publishers_at_impossible_addresses(
-    graph: Graph, uris: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_publishers_at_impossible_addresses(graph: Graph, uris: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     with unharmed(graph):
         listener = graph.nodes["/listener"]
         talker = graph.nodes["/talker"].uri
         subscription = listener.subscriptions["/t"]
         before = subscription.updates
-        say(
-            graph,
-            slave_port_of(graph, "/listener"),
-            post("publisherUpdate", "/x", "/t", [talker, *uris]),
-            finish=True,
-        )
+        say(graph, slave_port_of(graph, "/listener"), post("publisherUpdate", "/x", "/t", [talker, *uris]), finish=True)
         until(
-            graph,
-            lambda: subscription.updates > before and not set(subscription.connections) - {talker},
-            "their end",
+            graph, lambda: subscription.updates > before and not set(subscription.connections) - {talker}, "their end"
         )
-        say(
-            graph,
-            slave_port_of(graph, "/listener"),
-            post("publisherUpdate", "/x", "/t", [talker]),
-            finish=True,
-        )
+        say(graph, slave_port_of(graph, "/listener"), post("publisherUpdate", "/x", "/t", [talker]), finish=True)
         until(graph, lambda: subscription.updates > before + 1, "the news")
     said = capsys.readouterr().err
     assert "Traceback" not in said

@@ -81,9 +81,7 @@ def test_what_comes_while_the_scheduler_is_busy_is_read_by_the_io_thread(wire: W
     """First while nobody has ever slept there, then after a sleep, and after one that something ended."""
     for number in range(3):
         wire.there.send(b"%d" % number)
-        wait_until(
-            lambda number=number: wire.got(b"%d" % number), "a read"
-        )  # this is the hub's thread: it is busy
+        wait_until(lambda number=number: wire.got(b"%d" % number), "a read")  # this is the hub's thread: it is busy
         assert wire.read[-1][1] == "rosmini-net"
         wire.scheduler.run(until_ns=wire.scheduler.now_ns() + 1_000_000)
         wire.scheduler.call_soon_threadsafe(lambda: None)
@@ -93,9 +91,7 @@ def test_what_comes_while_the_scheduler_is_busy_is_read_by_the_io_thread(wire: W
 def test_a_sleeping_scheduler_is_woken_for_what_others_want(wire: Wire) -> None:
     done: list[int] = []
     for number in range(200):
-        thread = threading.Thread(
-            target=wire.scheduler.call_soon_threadsafe, args=(lambda n=number: done.append(n),)
-        )
+        thread = threading.Thread(target=wire.scheduler.call_soon_threadsafe, args=(lambda n=number: done.append(n),))
         thread.start()
         wire.scheduler.run(until=lambda number=number: done[-1:] == [number])
         thread.join()

@@ -131,15 +131,11 @@ def several(port: int, count: int, method: str, *arguments: Any) -> list[Any]:
         return answers
 
 
-def test_too_many_calls_at_once_are_a_fault_and_none_is_made(
-    io: IoThread, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_too_many_calls_at_once_are_a_fault_and_none_is_made(io: IoThread, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(master_server, "MAX_CALLS", 5)
     calls: list[str] = []
     with Graph(rosout=False) as graph:
-        server = MasterServer(
-            io, master_of(graph), addresses({}), 0, on_call=lambda method, *_: calls.append(method)
-        )
+        server = MasterServer(io, master_of(graph), addresses({}), 0, on_call=lambda method, *_: calls.append(method))
         assert len(several(server.port, 5, "getPid", "/test")) == 5
         with pytest.raises(Fault, match="has 6 calls, at most 5"):
             several(server.port, 6, "getPid", "/test")
@@ -147,17 +143,13 @@ def test_too_many_calls_at_once_are_a_fault_and_none_is_made(
         server.close()
 
 
-def test_calls_end_where_their_answers_exceed_the_limit(
-    io: IoThread, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_calls_end_where_their_answers_exceed_the_limit(io: IoThread, monkeypatch: pytest.MonkeyPatch) -> None:
     """So a short request for a large parameter, a thousand times, costs no more than the limit."""
     monkeypatch.setattr(master_server, "MAX_BYTES", 100_000)
     calls: list[str] = []
     with Graph(rosout=False) as graph:
         master_of(graph).setParam("/test", "/large", "x" * 30_000)
-        server = MasterServer(
-            io, master_of(graph), addresses({}), 0, on_call=lambda method, *_: calls.append(method)
-        )
+        server = MasterServer(io, master_of(graph), addresses({}), 0, on_call=lambda method, *_: calls.append(method))
         assert len(several(server.port, 3, "getParam", "/test", "/large")) == 3
         with pytest.raises(Fault, match="exceed 100000 bytes: of its 1000 calls 4 were made"):
             several(server.port, 1000, "getParam", "/test", "/large")
@@ -193,9 +185,7 @@ def test_a_refused_client_is_logged_once(io: IoThread) -> None:
         server = MasterServer(io, master_of(graph), addresses({}), 0, warn=lines.append)
         for _ in range(3):
             with (
-                ServerProxy(
-                    f"http://127.0.0.1:{server.port}", headers=[("Origin", "http://x.example")]
-                ) as proxy,
+                ServerProxy(f"http://127.0.0.1:{server.port}", headers=[("Origin", "http://x.example")]) as proxy,
                 pytest.raises(ProtocolError),
             ):
                 proxy.setParam("/test", "/a", 1)

@@ -163,9 +163,7 @@ def test_others_live_on_the_time_of_a_graph_that_is_simulated(
     assert "/rosmini_clock" not in graph.nodes
 
 
-def test_a_simulator_that_starts_replaces_the_clock(
-    graph: Graph, elsewhere: Graph, environ: dict[str, str]
-) -> None:
+def test_a_simulator_that_starts_replaces_the_clock(graph: Graph, elsewhere: Graph, environ: dict[str, str]) -> None:
     before = graph.node("before")
     graph.online(environ=environ)
     heard: list[float] = []

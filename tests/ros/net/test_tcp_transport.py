@@ -172,9 +172,7 @@ def test_another_type_is_told_with_what_differs(graph: Graph) -> None:
         (struct.pack("<II", 8, 99) + b"abcd", "claims 99 bytes"),
     ],
 )
-def test_who_sends_no_proper_header_is_refused_and_the_graph_goes_on(
-    graph: Graph, text: bytes, says: str
-) -> None:
+def test_who_sends_no_proper_header_is_refused_and_the_graph_goes_on(graph: Graph, text: bytes, says: str) -> None:
     publisher, heard = talk(graph)
     answer = say(graph, port_of(graph, "/talker"), text)
     assert says in (decode_header(answer)["error"] if answer else "")
@@ -219,9 +217,7 @@ def test_what_is_published_is_sent_at_once_and_a_subscriber_asks_others_for_that
 def test_requests_that_come_at_once_are_answered_one_after_the_other(graph: Graph) -> None:
     graph.node("talker").service("add", AddTwoInts, lambda request: request.a + request.b)
     until(graph, lambda: network_of(graph).transport.service_uri(graph.nodes["/talker"].uri))
-    header = encode_header(
-        {"service": "/add", "md5sum": AddTwoInts._md5sum, "callerid": "/raw", "persistent": "1"}
-    )
+    header = encode_header({"service": "/add", "md5sum": AddTwoInts._md5sum, "callerid": "/raw", "persistent": "1"})
     requests = b"".join(struct.pack("<Iqq", 16, number, 1) for number in range(200))
     got: list[bytes] = []
 

@@ -90,10 +90,7 @@ def test_handlers_of_the_logger_rosout_are_called(sim_programs):
         sim_programs(main)
     finally:
         logging.getLogger("rosout").removeHandler(handler)
-    assert records == [
-        ("rosout", "WARNING", "a text", "main"),
-        ("rosout.motor", "CRITICAL", "100%", "main"),
-    ]
+    assert records == [("rosout", "WARNING", "a text", "main"), ("rosout.motor", "CRITICAL", "100%", "main")]
 
 
 def test_once_and_throttle_count_each_place_alone(sim_programs, log):
@@ -109,12 +106,8 @@ def test_once_and_throttle_count_each_place_alone(sim_programs, log):
     sim_programs(main)
     texts = [line.partition("]: ")[2] for line in log.read().out.splitlines()]
     assert texts.count("once 0") == 1
-    assert [text for text in texts if text.startswith("throttled")] == [
-        f"throttled {n}" for n in (0, 3, 6, 9)
-    ]
-    assert [text for text in texts if text.startswith("identical")] == [
-        f"identical {n}" for n in (0, 0, 1, 1, 1)
-    ]
+    assert [text for text in texts if text.startswith("throttled")] == [f"throttled {n}" for n in (0, 3, 6, 9)]
+    assert [text for text in texts if text.startswith("identical")] == [f"identical {n}" for n in (0, 0, 1, 1, 1)]
     assert texts.count("rare") == 1
 
 

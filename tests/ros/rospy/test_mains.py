@@ -25,9 +25,7 @@ def graph() -> Iterator[Graph]:
         set_default_graph(before)
 
 
-def test_they_print_what_the_tools_do(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_they_print_what_the_tools_do(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     rosnodemain(["rosnode", "list"])
     rostopicmain(["rostopic", "echo", "-n", "1", "/chatter"])
     rosservicemain(["rosservice", "type", "/talker/get_loggers", "__name:=asking"])

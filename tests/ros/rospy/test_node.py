@@ -92,8 +92,7 @@ def test_a_second_init_node_must_be_the_same(programs):
         rospy.init_node("talker", log_level=rospy.DEBUG)
         rospy.init_node("talker", log_level=rospy.DEBUG)
         with pytest.raises(
-            rospy.ROSException,
-            match=r"arguments: name='talker', .*, now name='other', .*\. One script is one node",
+            rospy.ROSException, match=r"arguments: name='talker', .*, now name='other', .*\. One script is one node"
         ):
             rospy.init_node("other")
         with pytest.raises(rospy.ROSException, match="different arguments"):

@@ -69,9 +69,7 @@ def test_rosgraph(programs):
         with pytest.raises(rosgraph.MasterError, match="nobody"):
             master.lookupNode("nobody")
         assert rosgraph.get_master_uri() == master.master_uri
-        return rosgraph.myargv(["a", "b:=c"]), rosgraph.names.anonymous_name(
-            "x"
-        ) != rosgraph.names.anonymous_name("x")
+        return rosgraph.myargv(["a", "b:=c"]), rosgraph.names.anonymous_name("x") != rosgraph.names.anonymous_name("x")
 
     assert programs(main) == (["a"], True)
 
@@ -111,11 +109,7 @@ def test_filling_messages():
         [{"header": {"stamp": "now", "frame_id": "map"}, "pose": {"position": [1, 2, 3]}}],
         {"now": genpy.Time(7)},
     )
-    assert (message.header.stamp, message.header.frame_id, message.pose.position.z) == (
-        genpy.Time(7),
-        "map",
-        3,
-    )
+    assert (message.header.stamp, message.header.frame_id, message.pose.position.z) == (genpy.Time(7), "map", 3)
     fill(message, ["auto", [[4, 5, 6], [0, 0, 0, 1]]], {"auto": Header(stamp=genpy.Time(9))})
     assert message.header.stamp == genpy.Time(9)
     assert message.pose.position.x == 4

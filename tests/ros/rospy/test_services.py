@@ -101,12 +101,7 @@ def test_an_error_handler_gets_what_the_handler_raised(programs, log):
 
     programs(server(fail, error_handler=lambda *arguments: got.append(arguments)), client)
     error, kind, again, trace = got[0]
-    assert (str(error), kind, again is error, trace is error.__traceback__) == (
-        "deliberate",
-        ValueError,
-        True,
-        True,
-    )
+    assert (str(error), kind, again is error, trace is error.__traceback__) == ("deliberate", ValueError, True, True)
     assert log.read().err == ""
 
 
@@ -166,9 +161,7 @@ def test_a_callback_may_call_a_service_of_its_own_process(programs):
         rospy.Service("add", AddTwoInts, add)
         sums = []
         rospy.Timer(
-            rospy.Duration(0.1),
-            lambda _: sums.append(rospy.ServiceProxy("add", AddTwoInts)(1, 2).sum),
-            oneshot=True,
+            rospy.Duration(0.1), lambda _: sums.append(rospy.ServiceProxy("add", AddTwoInts)(1, 2).sum), oneshot=True
         )
         while not sums:
             rospy.sleep(0.1)

@@ -82,8 +82,7 @@ def test_a_field_of_the_wrong_type_is_a_serialization_exception(programs):
 
 
 @pytest.mark.parametrize(
-    ("queue_size", "expected"),
-    [(None, [0, 1, 2, 3, 4]), (1, [0, 3, 6, 9, 12]), (2, [0, 2, 3, 8, 9, 14, 15])],
+    ("queue_size", "expected"), [(None, [0, 1, 2, 3, 4]), (1, [0, 3, 6, 9, 12]), (2, [0, 2, 3, 8, 9, 14, 15])]
 )
 def test_a_slow_callback_works_through_batches(programs, queue_size, expected):
     """As measured with rospy: all messages that waited when a callback returned are delivered before newer ones."""
@@ -143,9 +142,7 @@ def test_bad_arguments_of_topics(sim_programs, make, arguments, problem):
         sim_programs(main)
 
 
-@pytest.mark.parametrize(
-    "keywords", [{"queue_size": 0}, {"queue_size": "1"}, {"buff_size": 0}, {"buff_size": 1.5}]
-)
+@pytest.mark.parametrize("keywords", [{"queue_size": 0}, {"queue_size": "1"}, {"buff_size": 0}, {"buff_size": 1.5}])
 def test_bad_sizes_of_subscribers(sim_programs, keywords):
     def main():
         rospy.init_node("main")
@@ -288,11 +285,7 @@ def test_numpy_msg_deserializes_arrays():
     arrays = numpy_msg(Floats)()
     assert arrays.deserialize(data) is arrays
     assert isinstance(arrays.data, np.ndarray)
-    assert (arrays.data.dtype, arrays.data.tolist(), arrays.data.flags.writeable) == (
-        np.float32,
-        [1.0, 2.0],
-        False,
-    )
+    assert (arrays.data.dtype, arrays.data.tolist(), arrays.data.flags.writeable) == (np.float32, [1.0, 2.0], False)
     assert Floats().deserialize(data).data == (1.0, 2.0)
 
 
@@ -423,9 +416,7 @@ def test_a_type_given_as_text_says_what_to_write(sim_programs, text):
             lambda: rospy.Subscriber("t", text),
             lambda: rospy.wait_for_message("t", text, 1),
         ):
-            with pytest.raises(
-                ValueError, match=r"write `from std_msgs.msg import String` and give String itself"
-            ):
+            with pytest.raises(ValueError, match=r"write `from std_msgs.msg import String` and give String itself"):
                 make()
         for make in (
             lambda: rospy.Service("s", "std_srvs/Empty", print),
@@ -434,9 +425,7 @@ def test_a_type_given_as_text_says_what_to_write(sim_programs, text):
             with pytest.raises(ValueError, match=r"write `from std_srvs.srv import Empty`"):
                 make()
         for name in ("Fibonacci", "FibonacciAction"):
-            with pytest.raises(
-                ActionException, match=r"write `from actionlib_tutorials.msg import FibonacciAction`"
-            ):
+            with pytest.raises(ActionException, match=r"write `from actionlib_tutorials.msg import FibonacciAction`"):
                 SimpleActionClient("a", f"actionlib_tutorials/{name}")
         with pytest.raises(ValueError, match=r"did you mean LaserScan"):
             rospy.Subscriber("t", "sensor_msgs/LaserScam")

@@ -89,9 +89,7 @@ def nothing_left() -> Iterator[None]:
         if name not in modules and "pytest-of" in str(getattr(module, "__file__", ""))
     }
     assert not strangers, f"modules of scripts are left: {strangers}"
-    replaced = [
-        name for name, module in modules.items() if name in sys.modules and sys.modules[name] is not module
-    ]
+    replaced = [name for name, module in modules.items() if name in sys.modules and sys.modules[name] is not module]
     assert not replaced, f"modules were replaced: {replaced}"
 
 

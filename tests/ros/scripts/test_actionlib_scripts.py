@@ -44,8 +44,7 @@ def test_handles_and_modules_by_their_names(run):
     assert told[-3:] == ["3 added 3", "5 negative 0", "DONE DONE"]
     assert any("the action server ~add starts by itself (auto_start=True)" in line for line in told)
     assert any(
-        "set_aborted() is for a goal that is ACTIVE or PREEMPTING; this one is SUCCEEDED" in line
-        for line in told
+        "set_aborted() is for a goal that is ACTIVE or PREEMPTING; this one is SUCCEEDED" in line for line in told
     )
     assert ran.result.reason == "ended"
     assert ran.status == 0

@@ -120,8 +120,7 @@ LOOPS = {
     "polling": "while True: pass",
     "sleeping": "import time\nwhile True: time.sleep(0.001)",
     "deaf": "import time\nwhile True:\n    try:\n        time.sleep(1)\n    except BaseException:\n        pass",
-    "in a callback": NODE
-    + "def loop(e):\n    while True: pass\nrospy.Timer(rospy.Duration(0.01), loop)\nrospy.spin()",
+    "in a callback": NODE + "def loop(e):\n    while True: pass\nrospy.Timer(rospy.Duration(0.01), loop)\nrospy.spin()",
     "after the shutdown": NODE + "while True:\n    pass",
     "in the hook": NODE + "def stay():\n    while True: pass\nrospy.on_shutdown(stay)\nrospy.spin()",
     "in a thread": "import threading\ndef loop():\n    while True: pass\nthreading.Thread(target=loop).start()",
@@ -146,9 +145,7 @@ def test_rosnode_kill_ends_a_loop_as_in_rospy(runs, simulated):
     runs.run(0.5)
     runs.graph.nodes["/worker"].shutdown_requested("/rosnode", "user request")
     assert handle.wait(timeout=5) == (1 if simulated else 0)
-    assert [line.partition(":")[0] for line in runs.said if "shutdown request" not in line][:1] == [
-        "[worker] bye"
-    ]
+    assert [line.partition(":")[0] for line in runs.said if "shutdown request" not in line][:1] == ["[worker] bye"]
     assert any("ROSInterruptException" in line for line in runs.said) == simulated
 
 
@@ -168,11 +165,7 @@ def test_terminate_gets_harder(simulated_runs, name):
 @pytest.mark.parametrize(
     ("source", "returncode", "said"),
     [
-        (
-            "try:\n    while True: pass\nexcept KeyboardInterrupt:\n    print('stopped')",
-            0,
-            ["[script] stopped"],
-        ),
+        ("try:\n    while True: pass\nexcept KeyboardInterrupt:\n    print('stopped')", 0, ["[script] stopped"]),
         ("import time, atexit\natexit.register(print, 'over')\ntime.sleep(99)", -2, ["[script] over"]),
         (NODE + "rospy.spin()\nprint(rospy.is_shutdown())", 0, ["[worker] bye", "[worker] True"]),
         (NODE + "rospy.sleep(99)", 0, ["[worker] bye"]),
@@ -408,14 +401,8 @@ def test_a_script_waits_for_what_it_started(simulated_runs, tmp_path, monkeypatc
         "print(child.wait(), child.output)\n"
     )
     assert parent.wait() == 0
-    assert simulated_runs.said == [
-        "[script] child has not ended within 1 s",
-        "[script] 8 [child] child",
-        "[script] ",
-    ]
-    again = rosrun(
-        "talk", "child.py", graph=simulated_runs.graph, stdin="", capture_output=True, prefix=False
-    )
+    assert simulated_runs.said == ["[script] child has not ended within 1 s", "[script] 8 [child] child", "[script] "]
+    again = rosrun("talk", "child.py", graph=simulated_runs.graph, stdin="", capture_output=True, prefix=False)
     with pytest.raises(ScriptError, match="no such object"):
         again.instance()
     assert (again.wait(), again.output) == (8, "child\n")

@@ -24,9 +24,7 @@ def test_modules_of_the_same_name_keep_apart(run, tmp_path):
     specs = []
     for who in ("one", "two"):
         folder = tmp_path / who
-        run.file(
-            folder, "helper.py", f"WHO = {who!r}\nCOUNT = 0\ndef bump():\n    global COUNT\n    COUNT += 1\n"
-        )
+        run.file(folder, "helper.py", f"WHO = {who!r}\nCOUNT = 0\ndef bump():\n    global COUNT\n    COUNT += 1\n")
         run.file(folder, "lazy.py", f"from helper import WHO\nassert WHO == {who!r}\n")
         run.file(folder, "pack/__init__.py", "from . import inner\nfrom .inner.deep import WHO\n")
         run.file(folder, "pack/inner/__init__.py", "")
@@ -37,10 +35,7 @@ def test_modules_of_the_same_name_keep_apart(run, tmp_path):
             "again is inner\n",
         )
         specs.append(run.file(folder, f"{who}.py", node))
-    assert sorted(run(*specs).lines) == [
-        "[one] one 1 one True one one True",
-        "[two] two 1 two True two two True",
-    ]
+    assert sorted(run(*specs).lines) == ["[one] one 1 one True one one True", "[two] two 1 two True two two True"]
 
 
 def test_import_forms(run, tmp_path):
@@ -265,12 +260,7 @@ def test_signal_handlers(run):
             print("TypeError")
         """
     )
-    assert [line.removeprefix("[script] ") for line in ran.lines] == [
-        "True",
-        "True True",
-        "got SIGTERM",
-        "TypeError",
-    ]
+    assert [line.removeprefix("[script] ") for line in ran.lines] == ["True", "True True", "got SIGTERM", "TypeError"]
 
 
 def test_alarm(sim):
@@ -339,11 +329,7 @@ def test_time_in_wall_time_is_real():
     out = io.StringIO()
     before = time.time()
     run_scripts(
-        [
-            ScriptSpec(
-                "s", source="import time, datetime\nprint(time.time(), datetime.datetime.now().timestamp())"
-            )
-        ],
+        [ScriptSpec("s", source="import time, datetime\nprint(time.time(), datetime.datetime.now().timestamp())")],
         simulated=False,
         stdin="",
         stdout=out,

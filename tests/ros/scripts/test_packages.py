@@ -90,9 +90,7 @@ def test_the_environment_is_given_back(workspace, capsys, monkeypatch):
     assert said(capsys, workspace / "my_pkg" / "scripts" / "z.py") == [str(workspace)]
 
 
-@pytest.mark.parametrize(
-    "module", ["", "other/src/other/cfg/__init__.py"], ids=["no module", "a module without it"]
-)
+@pytest.mark.parametrize("module", ["", "other/src/other/cfg/__init__.py"], ids=["no module", "a module without it"])
 def test_parameters_that_are_not_built_yet(workspace, capsys, module):
     files = {"other/cfg/Speed.cfg": "PACKAGE = 'other'", "other/x.py": "from other.cfg import SpeedConfig"}
     for name, text in {**files, **({module: ""} if module else {})}.items():

@@ -83,9 +83,7 @@ def test_a_node_is_reconfigured_while_it_runs(start):
 
 def test_add_two_ints(start):
     ran = start(
-        "add_two_ints_server.py",
-        spec("add_two_ints_client.py", "40", "2"),
-        until="[add_two_ints_client] 40 + 2 = 42",
+        "add_two_ints_server.py", spec("add_two_ints_client.py", "40", "2"), until="[add_two_ints_client] 40 + 2 = 42"
     )
     assert said_by(ran, "add_two_ints_server") == ["Returning [40 + 2 = 42]"]
     assert said_by(ran, "add_two_ints_client") == ["40 + 2 = 42"]
@@ -151,9 +149,7 @@ def _typed_as_the_robot_moves(start):
     out, host = io.StringIO(), ModuleType("host")
     read, write = os.pipe()
     vars(host).update(
-        moves=MOVES,
-        said=lambda move: f"[robot] {move}\n" in out.getvalue(),
-        press=lambda key: os.write(write, key),
+        moves=MOVES, said=lambda move: f"[robot] {move}\n" in out.getvalue(), press=lambda key: os.write(write, key)
     )
     source = """
         import host, time

@@ -172,8 +172,7 @@ def test_a_script_of_a_package_goes_on_with_the_graph(graph):
 @pytest.mark.usefixtures("workspace")
 def test_a_script_can_start_a_node():
     source = (
-        "import rosmini\nc = rosmini.rosrun('counting', 'counter', '_start:=4').instance()\nprint(c.value)\n"
-        + SCRIPT
+        "import rosmini\nc = rosmini.rosrun('counting', 'counter', '_start:=4').instance()\nprint(c.value)\n" + SCRIPT
     )
     out = io.StringIO()
     result = run_scripts([ScriptSpec("both", source=source)], stdout=out)

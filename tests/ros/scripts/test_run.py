@@ -28,19 +28,14 @@ def test_lines_have_the_name_before_them_and_are_in_order(run):
 
 def test_unfinished_lines(sim):
     ran = sim(
-        sim.text(
-            "a",
-            "import time\nprint('a', end='', flush=True)\ntime.sleep(1)\nprint('b')\nprint('end', end='')\n",
-        ),
+        sim.text("a", "import time\nprint('a', end='', flush=True)\ntime.sleep(1)\nprint('b')\nprint('end', end='')\n"),
         sim.text("b", "import time\ntime.sleep(0.5)\nprint('middle')\n"),
     )
     assert ran.lines == ["[a] a", "[b] middle", "[a] b", "[a] end"]
 
 
 def test_a_flushed_line_goes_on(sim):
-    assert sim(
-        "print('a', end='', flush=True)\nprint('b')\nimport sys\nsys.stdout.buffer.write(b'raw\\n')"
-    ).lines == [
+    assert sim("print('a', end='', flush=True)\nprint('b')\nimport sys\nsys.stdout.buffer.write(b'raw\\n')").lines == [
         "[script] ab",
         "[script] raw",
     ]
@@ -107,9 +102,7 @@ def test_argparse_error_ends_the_script_only(run):
 
 def test_traceback_has_the_users_frames_only(run, tmp_path):
     run.file(
-        tmp_path,
-        "helper.py",
-        "def work(n):\n    while True:\n        n += 1\n        raise KeyError(n)  # here\n",
+        tmp_path, "helper.py", "def work(n):\n    while True:\n        n += 1\n        raise KeyError(n)  # here\n"
     )
     spec = run.file(tmp_path, "node.py", "import helper\n\ndef main():\n    helper.work(1)\n\nmain()\n")
     ran = run(spec, prefix=False)
@@ -196,9 +189,7 @@ EACH_COMMIT = ("publish", "lookup", "attribute")
 """A call that acts, one that raises, and no call at all."""
 
 
-@pytest.mark.parametrize(
-    "kind", [*EACH_COMMIT, *nightly(*(kind for kind in POLLING if kind not in EACH_COMMIT))]
-)
+@pytest.mark.parametrize("kind", [*EACH_COMMIT, *nightly(*(kind for kind in POLLING if kind not in EACH_COMMIT))])
 def test_a_loop_that_never_sleeps_uses_graph_time_and_is_warned_of_once(sim, kind):
     ran = sim(sim.text("poller", BEFORE + POLLING[kind]), duration=4.0, grace=0.0)
     warnings = [line for line in ran.lines if "rate.sleep()" in line]
@@ -210,9 +201,7 @@ def test_a_loop_that_never_sleeps_uses_graph_time_and_is_warned_of_once(sim, kin
 
 def test_a_loop_that_sleeps_or_computes_is_not_warned_of(sim):
     ran = sim(
-        sim.text(
-            "sleeps", BEFORE + "for i in range(2000):\n    pub.publish(Twist())\n    rospy.sleep(0.002)"
-        ),
+        sim.text("sleeps", BEFORE + "for i in range(2000):\n    pub.publish(Twist())\n    rospy.sleep(0.002)"),
         sim.text("computes", "total = 0\nfor i in range(300_000):\n    total += i\nprint(total)"),
     )
     assert "rate.sleep()" not in ran.text
@@ -230,12 +219,8 @@ def test_a_hundred_turns_cost_no_time(sim):
 def test_duration_ends_what_never_ends(run):
     ran = run(
         run.text("poll", "import atexit\natexit.register(print, 'bye')\nwhile True: pass"),
-        run.text(
-            "sleep", "import time, atexit\natexit.register(print, 'bye')\nwhile True:\n    time.sleep(0.005)"
-        ),
-        run.text(
-            "stubborn", "import time\nwhile True:\n    try:\n        time.sleep(1)\n    except:\n        pass"
-        ),
+        run.text("sleep", "import time, atexit\natexit.register(print, 'bye')\nwhile True:\n    time.sleep(0.005)"),
+        run.text("stubborn", "import time\nwhile True:\n    try:\n        time.sleep(1)\n    except:\n        pass"),
         run.text("thread", "import threading\nthreading.Thread(target=threading.Event().wait).start()"),
         duration=0.02,
         grace=0.01 if run.simulated else 0.5,
@@ -246,17 +231,13 @@ def test_duration_ends_what_never_ends(run):
 
 
 def test_simulated_time_waits_for_no_wall(sim):
-    assert sim("import time\nt = time.time()\ntime.sleep(3600)\nprint(time.time() - t)").lines == [
-        "[script] 3600.0"
-    ]
+    assert sim("import time\nt = time.time()\ntime.sleep(3600)\nprint(time.time() - t)").lines == ["[script] 3600.0"]
 
 
 def test_nothing_left_to_happen(sim):
     ran = sim("import threading\nthreading.Event().wait()")
     assert ran.result.reason == "drained"
-    assert [str(waiting) for waiting in ran.result.report.waiting] == [
-        "script was waiting for an event to be set"
-    ]
+    assert [str(waiting) for waiting in ran.result.report.waiting] == ["script was waiting for an event to be set"]
 
 
 def test_the_same_on_each_run(sim):
@@ -307,13 +288,9 @@ def test_interrupt(run):
         ),
         run.text("plain", keep),
         run.text(
-            "queue",
-            "import queue\ntry:\n    queue.Queue().get()\nexcept KeyboardInterrupt:\n    print('no more')",
+            "queue", "import queue\ntry:\n    queue.Queue().get()\nexcept KeyboardInterrupt:\n    print('no more')"
         ),
-        run.text(
-            "ctrl_c",
-            "import host_signal, time\ntime.sleep(0.01)\nhost_signal.raise_signal(host_signal.SIGINT)",
-        ),
+        run.text("ctrl_c", "import host_signal, time\ntime.sleep(0.01)\nhost_signal.raise_signal(host_signal.SIGINT)"),
         modules={"host_signal": signal},
     )
     assert ran.result.reason == "interrupted"

@@ -171,11 +171,7 @@ def test_input_at_its_end_costs_select_its_time_out(sim, source, tmp_path):
     """As a key-driven teleoperation with ``</dev/null``: graph time goes on, ten turns a second."""
     (tmp_path / "empty").write_text("", encoding="utf-8")
     with (tmp_path / "empty").open(encoding="utf-8") as empty:
-        ran = sim(
-            sim.text("teleop", TELEOP + "print(turns)"),
-            stdin="" if source == "text" else empty,
-            duration=2.05,
-        )
+        ran = sim(sim.text("teleop", TELEOP + "print(turns)"), stdin="" if source == "text" else empty, duration=2.05)
     assert (ran.result.reason, ran.result.status) == ("time", 0)
     turns = int(ran.lines[-1].removeprefix("[teleop] "))
     assert 19 <= turns <= 22

@@ -30,12 +30,8 @@ from rosmini.sim.models import BURGER, WAFFLE_PI, CameraModel, LidarModel
 from rosmini.sim.world import Box, Obstacle, World
 
 OMNI = replace(BURGER, name="omni", drive="holonomic")
-CAMERA = CameraModel(
-    name="eye", mount=(0.0, 0.0, 0.2), width=64, height=48, horizontal_fov=1.0, rate=10.0, depth=True
-)
-WALL = World(
-    "wall", obstacles=(Obstacle("barrier", Box(0.2, 4.0), (2.1, 0.0, 0.0), height=1.0, colour="blue"),)
-)
+CAMERA = CameraModel(name="eye", mount=(0.0, 0.0, 0.2), width=64, height=48, horizontal_fov=1.0, rate=10.0, depth=True)
+WALL = World("wall", obstacles=(Obstacle("barrier", Box(0.2, 4.0), (2.1, 0.0, 0.0), height=1.0, colour="blue"),))
 
 
 class Stand:
@@ -87,9 +83,7 @@ def test_topics_frames_and_rates_are_arguments(graph):
     ]
     stand.command("go", 0.1)
     graph.run(2.01)
-    assert [len(messages) for messages in heard] == [
-        pytest.approx(n, abs=1) for n in (100, 100, 20, 40, 4, 50)
-    ]
+    assert [len(messages) for messages in heard] == [pytest.approx(n, abs=1) for n in (100, 100, 20, 40, 4, 50)]
     odom, tf, joints, truth, scan, imu = (messages[-1] for messages in heard)
     assert (odom.header.frame_id, odom.child_frame_id) == ("o", "b")
     assert (tf.transforms[0].header.frame_id, tf.transforms[0].child_frame_id) == ("o", "b")
@@ -100,9 +94,7 @@ def test_topics_frames_and_rates_are_arguments(graph):
     assert odom.twist.twist.linear.x == pytest.approx(0.1, abs=0.01)
 
 
-@pytest.mark.parametrize(
-    ("source", "begin"), [("encoder", (0.0, 0.0)), ("start", (0.0, 0.0)), ("world", (1.0, 2.0))]
-)
+@pytest.mark.parametrize(("source", "begin"), [("encoder", (0.0, 0.0)), ("start", (0.0, 0.0)), ("world", (1.0, 2.0))])
 def test_odometry_is_counted_from_the_start_or_from_the_world(graph, source, begin):
     stand = Stand(graph)
     stand.engine.add("s", BURGER, (1.0, 2.0, math.pi / 2))
@@ -127,10 +119,7 @@ def test_a_planar_move_goes_to_the_side(graph, source):
     host = stand.host
     host.add(PlanarMove(host, "r", source=source))
     host.add(GroundTruth(host, "r"))
-    odom, truth = (
-        stand.hear("odom", "nav_msgs/Odometry"),
-        stand.hear("base_pose_ground_truth", "nav_msgs/Odometry"),
-    )
+    odom, truth = (stand.hear("odom", "nav_msgs/Odometry"), stand.hear("base_pose_ground_truth", "nav_msgs/Odometry"))
     stand.command("cmd_vel", 0.1, 0.2)
     graph.run(2.0)
     x, y, _ = stand.engine.robot("r").pose
@@ -232,14 +221,9 @@ def test_what_a_camera_sees(graph):
     stand = Stand(graph, WALL)
     host = stand.host
     host.add(
-        CameraDevice(
-            host, "r", CAMERA, depth="depth/image_raw", depth_info="depth/camera_info", points="depth/points"
-        )
+        CameraDevice(host, "r", CAMERA, depth="depth/image_raw", depth_info="depth/camera_info", points="depth/points")
     )
-    image, info = (
-        stand.hear("image_raw", "sensor_msgs/Image"),
-        stand.hear("camera_info", "sensor_msgs/CameraInfo"),
-    )
+    image, info = (stand.hear("image_raw", "sensor_msgs/Image"), stand.hear("camera_info", "sensor_msgs/CameraInfo"))
     depth = stand.hear("depth/image_raw", "sensor_msgs/Image")
     points = stand.hear("depth/points", "sensor_msgs/PointCloud2")
     graph.run(0.55)
@@ -259,17 +243,10 @@ def test_what_a_camera_sees(graph):
     assert info[-1].distortion_model == "plumb_bob"
     assert info[-1].header.stamp == picture.header.stamp
     cloud = points[-1]
-    assert [(field.name, field.offset) for field in cloud.fields] == [
-        ("x", 0),
-        ("y", 4),
-        ("z", 8),
-        ("rgb", 12),
-    ]
+    assert [(field.name, field.offset) for field in cloud.fields] == [("x", 0), ("y", 4), ("z", 8), ("rgb", 12)]
     middle = np.frombuffer(bytes(cloud.data), dtype="<f4").reshape(48, 64, 4)[24, 32]
     k = info[-1].K
-    assert middle[:3].tolist() == pytest.approx(
-        [(32 - k[2]) / focal * 2, (24 - k[5]) / focal * 2, 2.0], abs=1e-4
-    )
+    assert middle[:3].tolist() == pytest.approx([(32 - k[2]) / focal * 2, (24 - k[5]) / focal * 2, 2.0], abs=1e-4)
 
 
 def test_a_camera_that_nobody_watches_does_not_render(graph, monkeypatch):
@@ -339,9 +316,7 @@ def test_a_bumper_tells_what_it_touches(graph):
     graph.run(1.5)
     (state,) = heard[-1].states
     assert (state.collision1_name, state.collision2_name) == ("r::base_link::collision", "barrier")
-    assert (
-        len(state.contact_positions) == len(state.contact_normals) == len(state.wrenches) == len(state.depths)
-    )
+    assert len(state.contact_positions) == len(state.contact_normals) == len(state.wrenches) == len(state.depths)
     assert {round(place.x, 2) for place in state.contact_positions} == {2.0}
     assert {round(normal.x) for normal in state.contact_normals} == {-1}
     assert state.total_wrench.force.x == pytest.approx(sum(w.force.x for w in state.wrenches))
@@ -367,12 +342,8 @@ def test_the_clock_tells_the_worlds_time(graph):
     assert heard[-1].clock.to_sec() == pytest.approx(0.8)
 
 
-@pytest.mark.parametrize(
-    ("width", "height", "rate", "dear"), [(1920, 1080, 30.0, True), (640, 480, 30.0, False)]
-)
-def test_a_camera_that_is_dear_says_so_once_and_only_if_somebody_hears_it(
-    graph, capsys, width, height, rate, dear
-):
+@pytest.mark.parametrize(("width", "height", "rate", "dear"), [(1920, 1080, 30.0, True), (640, 480, 30.0, False)])
+def test_a_camera_that_is_dear_says_so_once_and_only_if_somebody_hears_it(graph, capsys, width, height, rate, dear):
     stand = Stand(graph, WALL)
     camera = replace(CAMERA, width=width, height=height, rate=rate)
     stand.host.add(CameraDevice(stand.host, "r", camera, image="image", depth="depth"))

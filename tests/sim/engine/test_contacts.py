@@ -203,16 +203,12 @@ def test_a_crowd_goes_through_nothing(seed):
     for _ in range(8):
         drive(engine, rng, float(rng.uniform(0.3, 1.5)))
         touched += sum(robot.touching for robot in engine.robots.values())
-        pillar, ball = (
-            Outline(np.array([at[:2]]), r) for at, r in (((0.4, 0.3), 0.095), (engine.pose("ball"), 0.075))
-        )
+        pillar, ball = (Outline(np.array([at[:2]]), r) for at, r in (((0.4, 0.3), 0.095), (engine.pose("ball"), 0.075)))
         outlines = [robot.corners() for robot in engine.robots.values()]
         for i, corners in enumerate(outlines):
             assert abs(corners).max() < 1.6 + 1e-3
             assert not overlap(Outline(corners), pillar)
             assert not overlap(Outline(corners), ball)
-            inner = Outline(
-                corners.mean(axis=0) + 0.95 * (corners - corners.mean(axis=0))
-            )  # 5 mm are allowed
+            inner = Outline(corners.mean(axis=0) + 0.95 * (corners - corners.mean(axis=0)))  # 5 mm are allowed
             assert not any(overlap(inner, Outline(other)) for other in outlines[:i])
     assert touched > 8

@@ -120,9 +120,7 @@ def test_encoders_count_what_the_wheels_turn():
     engine.command("burger", 0.1, 0.5)
     engine.advance(8.0)
     ways = [(0.1 + side * 0.04) * 8 - (0.1 + side * 0.04) ** 2 / 2 for side in (-1, 1)]
-    assert engine.robots["burger"].ticks == tuple(
-        math.floor(way / 0.033 / (2 * math.pi) * 4096) for way in ways
-    )
+    assert engine.robots["burger"].ticks == tuple(math.floor(way / 0.033 / (2 * math.pi) * 4096) for way in ways)
 
 
 # -- walls -----------------------------------------------------------------------------------------------------------
@@ -278,11 +276,7 @@ def test_a_peek_tells_the_future_and_changes_nothing():
     ("where", "pose", "culprit"),
     [
         (BEHIND, (0.97, 0.0, 0.0), r"the wall from \(1.00, -3.00\) to \(1.00, 3.00\)"),
-        (
-            World("p", (Obstacle("pillar", Cylinder(0.1), (2.0, 0.0, 0.0)),)),
-            (1.9, 0.0, 0.0),
-            "the obstacle 'pillar'",
-        ),
+        (World("p", (Obstacle("pillar", Cylinder(0.1), (2.0, 0.0, 0.0)),)), (1.9, 0.0, 0.0), "the obstacle 'pillar'"),
         (World("h", (Obstacle("house", Box(4.0, 4.0)),)), (0.3, 0.0, 0.0), "the obstacle 'house'"),
         (crate(1.0), (0.5, 0.0, 0.0), "the obstacle 'crate'"),
     ],
@@ -304,9 +298,7 @@ def test_who_is_refused_hears_where_there_is_room():
 
 
 def test_in_a_map_a_robot_is_not_placed_inside_of_a_wall():
-    outline = np.array(
-        [(0.0, 0.0, 2.0, 0.0), (2.0, 0.0, 2.0, 2.0), (2.0, 2.0, 0.0, 2.0), (0.0, 2.0, 0.0, 0.0)]
-    )
+    outline = np.array([(0.0, 0.0, 2.0, 0.0), (2.0, 0.0, 2.0, 2.0), (2.0, 2.0, 0.0, 2.0), (0.0, 2.0, 0.0, 0.0)])
     block = World("block", walls=outline, solid=True)
     with pytest.raises(WorldError, match="wall"):
         make(block, (1.0, 1.0, 0.0))

@@ -23,13 +23,9 @@ OMNI = RobotModel(
 SLOW = replace(OMNI, name="slow", linear_acceleration=0.5, angular_acceleration=2.0)
 
 
-def make(
-    model: RobotModel, pose=(0.0, 0.0, 0.0), *, noise: float = 0.0, world: World | None = None
-) -> Engine:
+def make(model: RobotModel, pose=(0.0, 0.0, 0.0), *, noise: float = 0.0, world: World | None = None) -> Engine:
     engine = Engine(
-        World("void") if world is None else world,
-        lambda name: np.random.default_rng(sum(name.encode())),
-        noise=noise,
+        World("void") if world is None else world, lambda name: np.random.default_rng(sum(name.encode())), noise=noise
     )
     engine.add("robot", model, pose)
     return engine
@@ -155,9 +151,7 @@ def test_linear_and_angular_limits_hold_by_themselves():
     assert engine.pose("robot") == pytest.approx((0.0, 0.0, 6.0 - 2.0), abs=1e-9)
 
 
-@given(
-    st.floats(-0.2, 0.2), st.floats(-2.0, 2.0), st.floats(0.05, 2.0), st.floats(0.1, 9.0), st.floats(0.1, 2.0)
-)
+@given(st.floats(-0.2, 0.2), st.floats(-2.0, 2.0), st.floats(0.05, 2.0), st.floats(0.1, 9.0), st.floats(0.1, 2.0))
 def test_no_limit_is_ever_broken(v, w, linear, angular, rim):
     b = 0.16
     targets = (v - w * b / 2, v + w * b / 2)
@@ -216,9 +210,7 @@ def test_a_thing_without_a_drive_cannot_be_driven():
 
 
 def test_a_laser_on_a_post_sees_a_robot_go_by():
-    post = replace(
-        TROLLEY, name="post", mass=math.inf, inertia=math.inf, lidar=BURGER.laser, body_radius=0.05
-    )
+    post = replace(TROLLEY, name="post", mass=math.inf, inertia=math.inf, lidar=BURGER.laser, body_radius=0.05)
     engine = make(BURGER, (-0.5, 1.0, 0.0))
     engine.add("post", post, (0.0, 0.0, 0.0))
     engine.command("robot", 0.2, 0.0)

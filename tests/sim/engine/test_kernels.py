@@ -85,9 +85,7 @@ def test_two_outlines_overlap_where_and_as_deep_as_pymunk_says(kind, x, y, theta
     if found[0] and found[1] * expected.normal.x + found[2] * expected.normal.y > 1 - 1e-6:
         # of equal ways out either may be taken; if it is the same one, the points are the same
         assume(len(expected.points) == found[0])
-        assert sorted([found[3], found[6]][: found[0]]) == pytest.approx(
-            sorted(depths_of(expected)), abs=1e-6
-        )
+        assert sorted([found[3], found[6]][: found[0]]) == pytest.approx(sorted(depths_of(expected)), abs=1e-6)
         mine = [found[4:6], found[7:9]][: found[0]]
         its = [tuple(point.point_a) for point in expected.points]
         if math.dist(mine[0], its[0]) > math.dist(mine[0], its[-1]):
@@ -164,6 +162,4 @@ def test_of_two_points_one_just_touches_afterwards_and_none_is_deeper_than_befor
 
 
 def test_flat_against_a_wall_a_body_does_not_turn():
-    assert kernels.point_correction(2, 0.001, 0.001, 0.105, -0.105, 1.0, 0.0025) == pytest.approx(
-        (0.001, 0.0)
-    )
+    assert kernels.point_correction(2, 0.001, 0.001, 0.105, -0.105, 1.0, 0.0025) == pytest.approx((0.001, 0.0))

@@ -67,9 +67,7 @@ def yard() -> Engine:
     things = (
         Obstacle("table", legs, (0.0, 0.75, 0.2), mass=0.4),
         Obstacle("walker", Cylinder(0.15), motion=Walk(((0.9, -0.9), (0.9, 0.9), (-0.9, 0.0)), speed=0.5)),
-        Obstacle(
-            "door", Box(0.5, 0.04), (-0.7, 0.4, 0.0), motion=Door(hinge=(-0.25, 0.0), closed=0.3, open=0.5)
-        ),
+        Obstacle("door", Box(0.5, 0.04), (-0.7, 0.4, 0.0), motion=Door(hinge=(-0.25, 0.0), closed=0.3, open=0.5)),
         Obstacle("shelf", Box(0.5, 0.2), (0.3, -0.5, 0.0), bottom=1.0, height=1.2),
     )
     return made(

@@ -43,9 +43,7 @@ def test_of_two_robots_the_one_with_less_grip_gives_way():
         engine.add("coming", model, (1.0, 0.0, math.pi))
         engine.command("coming", 0.2, 0.0)
         engine.advance(10.0)
-        assert engine.pose("resting")[0] == pytest.approx(
-            -0.2 * 10 + 0.02 + 1.0 - 0.118 if moves else 0.0, abs=0.01
-        )
+        assert engine.pose("resting")[0] == pytest.approx(-0.2 * 10 + 0.02 + 1.0 - 0.118 if moves else 0.0, abs=0.01)
 
 
 def test_a_robot_between_a_stronger_one_and_a_wall_is_not_pushed_through_the_wall():

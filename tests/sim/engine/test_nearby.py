@@ -15,12 +15,7 @@ places = st.floats(-60.0, 60.0)
 
 
 @given(
-    st.integers(0, 200),
-    st.integers(0, 1000),
-    st.sampled_from([0.1, 2.0, 30.0]),
-    places,
-    places,
-    st.floats(0.0, 40.0),
+    st.integers(0, 200), st.integers(0, 1000), st.sampled_from([0.1, 2.0, 30.0]), places, places, st.floats(0.0, 40.0)
 )
 def test_what_is_near_is_what_a_look_at_everything_finds(count, seed, length, x, y, reach):
     rng = np.random.default_rng(seed)
@@ -42,9 +37,7 @@ def test_walls_on_the_edges_of_squares_are_found():
     nearby = Nearby(np.hstack([points, points]))
     for x, y in points.tolist():
         assert len(nearby.within(x, y, 0.0)) == 1
-        assert len(nearby.within(x, y, 2.0)) == sum(
-            abs(px - x) <= 2 and abs(py - y) <= 2 for px, py in points.tolist()
-        )
+        assert len(nearby.within(x, y, 2.0)) == sum(abs(px - x) <= 2 and abs(py - y) <= 2 for px, py in points.tolist())
 
 
 def test_a_laser_sees_the_same_walls_wherever_it_jumps_in_a_large_world():

@@ -20,12 +20,7 @@ HALF = 1.7
 ROOM = World(
     "room",
     walls=np.array(
-        [
-            (-HALF, -HALF, HALF, -HALF),
-            (HALF, -HALF, HALF, HALF),
-            (HALF, HALF, -HALF, HALF),
-            (-HALF, HALF, -HALF, -HALF),
-        ]
+        [(-HALF, -HALF, HALF, -HALF), (HALF, -HALF, HALF, HALF), (HALF, HALF, -HALF, HALF), (-HALF, HALF, -HALF, -HALF)]
     ),
 )
 LASER = BURGER.laser
@@ -131,9 +126,7 @@ def test_another_robot_is_seen_where_it_is_at_each_beams_time():
     both = np.isfinite(ranges) & np.isfinite(exact)
     assert both.sum() >= 4
     assert (np.isfinite(ranges) != np.isfinite(exact)).sum() <= 1
-    half = (
-        0.22 * 4 * 0.2 / 360
-    )  # as far as it goes in four beams, and what that is along a beam that grazes it
+    half = 0.22 * 4 * 0.2 / 360  # as far as it goes in four beams, and what that is along a beam that grazes it
     assert np.abs(ranges[both] - exact[both]).max() < 8 * half
     assert np.median(np.abs(ranges[both] - exact[both])) < half
 
@@ -223,9 +216,7 @@ def test_each_of_several_that_move_sees_the_one_that_stands():
     for order in (("a", "c", "b"), ("b", "c", "a")):
         engine = engine_of()
         for name in order:
-            engine.add(
-                name, BURGER, {"a": (-1.0, 0.0, 0.0), "b": (0.0, 0.9, 0.0), "c": (0.7, 0.0, 0.0)}[name]
-            )
+            engine.add(name, BURGER, {"a": (-1.0, 0.0, 0.0), "b": (0.0, 0.9, 0.0), "c": (0.7, 0.0, 0.0)}[name])
         for name in ("a", "b"):
             engine.command(name, 0.1, 0.4)
         engine.advance(1.0)

@@ -95,9 +95,7 @@ def test_each_laser_sees_the_parts_at_its_own_height():
     assert engine.scan("burger")[0] == math.inf  # its own laser, 0.182 m up, looks over the waffle
     # the waffle's base is a box of 0.266 m, 64 mm behind its axle
     assert engine.scan("burger", lidar=low)[0] == pytest.approx(1.064 - 0.133)
-    assert engine.scan("waffle")[0] == pytest.approx(
-        1.064 + 0.032 - 0.07 - 0.0, abs=1e-6
-    )  # the burger's base
+    assert engine.scan("waffle")[0] == pytest.approx(1.064 + 0.032 - 0.07 - 0.0, abs=1e-6)  # the burger's base
 
 
 @given(st.floats(-3.0, 3.0), st.floats(-3.0, 3.0), st.floats(0.8, 2.5))
@@ -121,12 +119,7 @@ def test_a_box_on_a_robot_is_seen_exactly(bearing, turn, away):
 
 def test_a_laser_that_looks_ahead_and_sits_askew_sees_what_is_there():
     half = replace(
-        BURGER.laser,
-        beams=181,
-        angle_min=-math.pi / 2,
-        angle_max=math.pi / 2,
-        mount=(0.1, 0.05, 0.1),
-        yaw=math.pi / 2,
+        BURGER.laser, beams=181, angle_min=-math.pi / 2, angle_max=math.pi / 2, mount=(0.1, 0.05, 0.1), yaw=math.pi / 2
     )
     engine = make(wall((-3.0, 2.0, 3.0, 2.0)), burger=(0.0, 0.0, 0.0))
     ranges = engine.scan("burger", lidar=half)

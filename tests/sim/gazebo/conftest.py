@@ -56,9 +56,7 @@ def urdf(extensions: str = DIFF_DRIVE + LASER, axle: float = 0.0) -> str:
     </robot>"""
 
 
-def box(
-    name: str = "box", *, static: bool = False, extra: str = "", size: float = 0.4, mass: float = 2.0
-) -> str:
+def box(name: str = "box", *, static: bool = False, extra: str = "", size: float = 0.4, mass: float = 2.0) -> str:
     """The SDF of a cube."""
     inertia = mass * size * size / 6
     return f"""<?xml version="1.0"?><sdf version="1.6"><model name="{name}"><static>{int(static)}</static>
@@ -81,9 +79,7 @@ class Bench:
         """What a service of /gazebo answers."""
         return self.node.service_client(f"/gazebo/{service}", service_class(kind))(**fields)
 
-    def spawn(
-        self, xml: str, name: str, x: float = 0.0, y: float = 0.0, yaw: float = 0.0, **fields: Any
-    ) -> Any:
+    def spawn(self, xml: str, name: str, x: float = 0.0, y: float = 0.0, yaw: float = 0.0, **fields: Any) -> Any:
         """Spawn what a URDF or an SDF describes."""
         import math
 
@@ -92,12 +88,7 @@ class Bench:
         pose.orientation.z, pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
         kind = "urdf" if "<robot" in xml else "sdf"
         return self.call(
-            f"spawn_{kind}_model",
-            "gazebo_msgs/SpawnModel",
-            model_name=name,
-            model_xml=xml,
-            initial_pose=pose,
-            **fields,
+            f"spawn_{kind}_model", "gazebo_msgs/SpawnModel", model_name=name, model_xml=xml, initial_pose=pose, **fields
         )
 
     def drive(self, topic: str, v: float, w: float = 0.0, vy: float = 0.0) -> None:

@@ -36,12 +36,7 @@ def test_fixed_joints_are_lumped() -> None:
 
 def test_a_fixed_joint_can_be_kept() -> None:
     kept = urdf('<gazebo reference="base_joint"><preserveFixedJoint>true</preserveFixedJoint></gazebo>')
-    assert [link.name for link in converted(kept).model.links] == [
-        "base_footprint",
-        "base_link",
-        "left",
-        "right",
-    ]
+    assert [link.name for link in converted(kept).model.links] == ["base_footprint", "base_link", "left", "right"]
 
 
 def test_masses_that_are_lumped_obey_the_theorem_of_parallel_axes() -> None:

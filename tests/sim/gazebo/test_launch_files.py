@@ -20,9 +20,7 @@ from rosmini.ros.scripts import ScriptSpec, run_scripts
 
 PACKAGES = "gazebo_ros turtlebot3_gazebo turtlebot3_bringup turtlebot3_teleop turtlesim turtle_tf turtle_tf2"
 FILES = sorted(
-    path
-    for package in PACKAGES.split()
-    for path in (assets_dir() / "ros" / package / "launch").rglob("*.launch*")
+    path for package in PACKAGES.split() for path in (assets_dir() / "ros" / package / "launch").rglob("*.launch*")
 )
 
 
@@ -44,9 +42,7 @@ def test_all_that_a_launch_file_names_is_there(path: Path) -> None:
 
 def test_empty_world_has_the_arguments_of_noetic() -> None:
     root = parse_file(assets_dir() / "ros" / "gazebo_ros" / "launch" / "empty_world.launch")
-    arguments = {
-        each.get("name"): each.get("default") for each in root.all("arg") if "default" in each.attributes
-    }
+    arguments = {each.get("name"): each.get("default") for each in root.all("arg") if "default" in each.attributes}
     noetic = """paused=false use_sim_time=true extra_gazebo_args= gui=true recording=false headless=false debug=false
         physics=ode verbose=false output=screen world_name=worlds/empty.world respawn_gazebo=false
         use_clock_frequency=false pub_clock_frequency=100 enable_ros_network=true server_required=false
@@ -61,9 +57,7 @@ def test_keys_move_a_target_that_is_approached() -> None:
         graph.node("ear").subscriber("/cmd_vel", message_class("geometry_msgs/Twist"), heard.append)
         more = [(3.5 + i / 4, "wwww") for i in range(10)]
         pieces = [(0.5, "wwa"), (3.0, "s"), *more, (11.0, "\x03")]
-        result = run_scripts(
-            [ScriptSpec(str(path), ("_model:=burger",))], graph=graph, stdin=pieces, duration=30.0
-        )
+        result = run_scripts([ScriptSpec(str(path), ("_model:=burger",))], graph=graph, stdin=pieces, duration=30.0)
     assert (result.status, result.reason) == (0, "ended")
     ahead, turns = [each.linear.x for each in heard], [each.angular.z for each in heard]
     assert max(turns) == pytest.approx(0.1)

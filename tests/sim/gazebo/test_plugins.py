@@ -33,9 +33,7 @@ def own_registry(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(plugins, "_CLASSES", dict(plugins._CLASSES))
 
 
-PUSH = (
-    '<plugin name="push" filename="libmodel_push.so"><velocity>{}</velocity><duration>{}</duration></plugin>'
-)
+PUSH = '<plugin name="push" filename="libmodel_push.so"><velocity>{}</velocity><duration>{}</duration></plugin>'
 
 
 def test_a_box_is_pushed_along(bench: Start) -> None:
@@ -53,8 +51,7 @@ def test_a_box_is_pushed_along(bench: Start) -> None:
 
 def world_with(plugin: str) -> str:
     return (
-        '<sdf version="1.6"><world name="w"><include><uri>model://ground_plane</uri>'
-        f"</include>{plugin}</world></sdf>"
+        f'<sdf version="1.6"><world name="w"><include><uri>model://ground_plane</uri></include>{plugin}</world></sdf>'
     )
 
 
@@ -106,9 +103,7 @@ def test_the_three_kinds_of_plugins_hear_what_happens(bench: Start) -> None:
         def load(self, sensor: Any, sdf: Element) -> None:
             heard.append(f"load {sensor.device_name} {sensor.type} at {sensor.mount[2]:.1f} m")
 
-    there = bench(
-        world=load(world_with('<plugin name="p" filename="libworldly.so"><say>hello</say></plugin>'))
-    )
+    there = bench(world=load(world_with('<plugin name="p" filename="libworldly.so"><say>hello</say></plugin>')))
     laser = LASER.replace("libgazebo_ros_laser.so", "libsensing.so").replace(
         "<topicName>scan</topicName><frameName>laser</frameName>", ""
     )
@@ -118,20 +113,10 @@ def test_the_three_kinds_of_plugins_hear_what_happens(bench: Start) -> None:
     there.graph.run(2.0)
     there.call("reset_world", "std_srvs/Empty")
     there.server.node.shutdown("enough")
-    assert heard == [
-        "load w hello",
-        "load r/lidar ray at 0.2 m",
-        "load r",
-        "r at 0.5",
-        "r at 1.0",
-        "reset",
-        "close",
-    ]
+    assert heard == ["load w hello", "load r/lidar ray at 0.2 m", "load r", "r at 0.5", "r at 1.0", "reset", "close"]
 
 
-def test_what_a_plugin_raises_is_told_and_all_goes_on(
-    bench: Start, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_a_plugin_raises_is_told_and_all_goes_on(bench: Start, capsys: pytest.CaptureFixture[str]) -> None:
     class Broken(ModelPlugin, filename="libbroken.so"):
         def load(self, model: Any, sdf: Element) -> None:
             self.every(10.0, self.fail)
@@ -215,8 +200,7 @@ class Some(Tags):
 def test_tags_are_read_and_checked() -> None:
     complaints: list[str] = []
     found = Some.read(
-        parse("<p><name>n</name><on>TRUE</on><count>3</count><siz>2</siz><robotNamespace/></p>"),
-        complaints.append,
+        parse("<p><name>n</name><on>TRUE</on><count>3</count><siz>2</siz><robotNamespace/></p>"), complaints.append
     )
     assert found == Some(name="n", on=True, count=3)
     assert len(complaints) == 1

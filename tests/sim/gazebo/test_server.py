@@ -40,21 +40,14 @@ def test_a_world_file_is_loaded(bench: Start, tmp_path: Path) -> None:
     world = there.server.world
     assert world.name == "yard"
     assert list(world.models) == ["ground_plane", "wall", "crate"]
-    assert (world.physics.time_step, world.physics.max_update_rate, world.engine.surface.gravity) == (
-        0.002,
-        500.0,
-        1.6,
-    )
+    assert (world.physics.time_step, world.physics.max_update_rate, world.engine.surface.gravity) == (0.002, 500.0, 1.6)
     assert there.pose("crate") == pytest.approx((1.0, 1.0, 0.5))
     assert there.pose("wall") == (3.0, 0.0, 0.0)
     assert world.models["wall"].static
     assert not world.models["crate"].static
     properties = there.call("get_model_properties", "gazebo_msgs/GetModelProperties", model_name="crate")
     assert properties.geom_names == ["c"]
-    assert (
-        there.call("get_link_properties", "gazebo_msgs/GetLinkProperties", link_name="crate::link").mass
-        == 1.5
-    )
+    assert there.call("get_link_properties", "gazebo_msgs/GetLinkProperties", link_name="crate::link").mass == 1.5
 
 
 def test_what_is_wrong_with_a_world_or_a_model_is_one_warning(
@@ -88,17 +81,14 @@ def test_a_world_goes_on_without_a_model_that_cannot_come(
     driven = DIFF_DRIVE[DIFF_DRIVE.index("<plugin") : DIFF_DRIVE.index("</gazebo>")]
     model = f"<model name='cart'><link name='l'/>{driven}</model>"
     path.write_text(
-        f"<sdf version='1.6'><world name='w'>{model}{box()[box().index('<model') : -6]}</world></sdf>",
-        encoding="utf-8",
+        f"<sdf version='1.6'><world name='w'>{model}{box()[box().index('<model') : -6]}</world></sdf>", encoding="utf-8"
     )
     there = bench(str(path))
     assert list(there.server.world.models) == ["box"]
     assert "the model 'cart' has no joint 'left_wheel'" in capsys.readouterr().err
 
 
-def test_worlds_are_looked_for_as_gzserver_does(
-    bench: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_worlds_are_looked_for_as_gzserver_does(bench: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "worlds").mkdir()
     (tmp_path / "worlds" / "yard.world").write_text(WORLD, encoding="utf-8")
     monkeypatch.setenv("GAZEBO_RESOURCE_PATH", str(tmp_path))

@@ -29,9 +29,7 @@ def state(model: str, x: float = 0.0, y: float = 0.0, *, vx: float = 0.0, frame:
 
 
 def get(bench: Bench, name: str, other: str = "") -> Any:
-    return bench.call(
-        "get_model_state", "gazebo_msgs/GetModelState", model_name=name, relative_entity_name=other
-    )
+    return bench.call("get_model_state", "gazebo_msgs/GetModelState", model_name=name, relative_entity_name=other)
 
 
 def test_a_model_comes_and_goes(bench: Start) -> None:
@@ -63,9 +61,7 @@ def test_a_model_comes_and_goes(bench: Start) -> None:
         (urdf(DIFF_DRIVE.replace("<wheelDiameter>0.1", "<wheelDiameter>0")), "new", "<wheelDiameter> is more than 0 m"),
     ],
 )  # fmt: skip
-def test_what_cannot_come_is_refused_and_the_simulation_goes_on(
-    bench: Start, xml: str, name: str, said: str
-) -> None:
+def test_what_cannot_come_is_refused_and_the_simulation_goes_on(bench: Start, xml: str, name: str, said: str) -> None:
     there = bench()
     assert there.spawn(box(), "first").success
     models = list(there.server.world.models)
@@ -101,10 +97,7 @@ def test_an_occupied_place_is_refused(bench: Start) -> None:
 def test_a_urdf_service_takes_no_sdf(bench: Start) -> None:
     there = bench()
     answer = there.call("spawn_urdf_model", "gazebo_msgs/SpawnModel", model_name="b", model_xml=box())
-    assert (answer.success, answer.status_message) == (
-        False,
-        "SpawnModel: Failure - model format is not URDF.",
-    )
+    assert (answer.success, answer.status_message) == (False, "SpawnModel: Failure - model format is not URDF.")
     answer = there.call("spawn_sdf_model", "gazebo_msgs/SpawnModel", model_name="b", model_xml=urdf())
     assert answer.success
 
@@ -125,10 +118,7 @@ def test_the_state_of_a_model_in_the_world_and_seen_from_another(bench: Start) -
         assert seen.header.frame_id == frame
     answer = get(there, "b", "c")
     assert not answer.success
-    assert (
-        "relative_entity_name not found, did you forget to scope the body by model name?"
-        in answer.status_message
-    )
+    assert "relative_entity_name not found, did you forget to scope the body by model name?" in answer.status_message
     assert get(there, "nobody").status_message.startswith("GetModelState: model does not exist")
 
 
@@ -387,9 +377,7 @@ def test_a_force_that_wheels_hold_is_refused(bench: Start) -> None:
     there.spawn(box(static=True), "wall", 3.0)
     assert "wheels" in wrench(there, "robot::base_footprint", 1.0, 1.0).status_message
     assert "static" in wrench(there, "wall::link", 1.0, 1.0).status_message
-    assert wrench(there, "nobody::link", 1.0, 1.0).status_message.startswith(
-        "ApplyBodyWrench: body does not exist"
-    )
+    assert wrench(there, "nobody::link", 1.0, 1.0).status_message.startswith("ApplyBodyWrench: body does not exist")
 
 
 def test_a_force_lasts_until_it_is_cleared(bench: Start) -> None:

@@ -28,10 +28,7 @@ def test_from_a_parameter_with_a_pose_and_a_namespace(bench: Start) -> None:
     there.node.set_param("/robot_description", urdf())
     place = ("-x", 1, "-y", -2, "-z", 0.1, "-Y", 0.5)
     assert (
-        spawn_model(
-            there, "-urdf", "-param", "robot_description", "-model", "r", *place, "-robot_namespace", "ns"
-        )
-        == 0
+        spawn_model(there, "-urdf", "-param", "robot_description", "-model", "r", *place, "-robot_namespace", "ns") == 0
     )
     assert there.pose("r") == pytest.approx((1.0, -2.0, 0.5))
     assert ["/ns/scan", "sensor_msgs/LaserScan"] in there.graph.master.getTopicTypes("/x")[2]
@@ -63,9 +60,7 @@ def test_a_robot_whose_meshes_are_missing_comes_without_them(
         for tag in ("visual", "collision")
     )
     path = tmp_path / "r.urdf"
-    path.write_text(
-        urdf().replace('<link name="laser"/>', f'<link name="laser">{shapes}</link>'), encoding="utf-8"
-    )
+    path.write_text(urdf().replace('<link name="laser"/>', f'<link name="laser">{shapes}</link>'), encoding="utf-8")
     assert spawn_model(there, "-urdf", "-file", path, "-model", "r") == 0
     there.drive("/cmd_vel", 0.2)
     there.graph.run(2.0)
@@ -99,9 +94,7 @@ def test_it_takes_the_model_along_when_it_ends(bench: Start, tmp_path: Path) -> 
     assert "a" not in there.server.world.models
 
 
-def test_failures_have_a_status_and_a_reason(
-    bench: Start, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_failures_have_a_status_and_a_reason(bench: Start, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     there = bench()
     assert spawn_model(there, "-sdf", "-file", tmp_path / "none", "-model", "a") == 1
     assert spawn_model(there, "-urdf", "-param", "none", "-model", "a") == 1

@@ -59,9 +59,7 @@ def crosses(segments, a, b):
     """Whether the way from `a` to `b` meets one of the segments."""
 
     def side(p, q, r):
-        return (q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1]) - (q[..., 1] - p[..., 1]) * (
-            r[..., 0] - p[..., 0]
-        )
+        return (q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1]) - (q[..., 1] - p[..., 1]) * (r[..., 0] - p[..., 0])
 
     p, q = segments[:, :2], segments[:, 2:]
     return bool(((side(p, q, a) * side(p, q, b) <= 0) & (side(a, b, p) * side(a, b, q) <= 0)).any())
@@ -78,9 +76,7 @@ def test_centres_of_occupied_cells_are_inside_and_those_of_free_cells_outside(im
 
 
 @given(images, tolerances)
-def test_an_outline_is_nowhere_half_a_cell_from_the_edges_nor_the_edges_half_a_diagonal_from_it(
-    image, tolerance
-):
+def test_an_outline_is_nowhere_half_a_cell_from_the_edges_nor_the_edges_half_a_diagonal_from_it(image, tolerance):
     exact = sides(edge_loops(image))
     traced = sides(outlines(image, tolerance))
     assert (len(traced) == 0) == (not image.any())
@@ -149,9 +145,7 @@ def test_the_origin_turns_and_moves_the_outline():
     image[1, 1:4] = True
     turned = trace(image, 0.5, (2.0, 1.0, math.pi / 2))
     straight = trace(image, 0.5)
-    expected = np.stack(
-        [2 - straight[:, 1], 1 + straight[:, 0], 2 - straight[:, 3], 1 + straight[:, 2]], axis=1
-    )
+    expected = np.stack([2 - straight[:, 1], 1 + straight[:, 0], 2 - straight[:, 3], 1 + straight[:, 2]], axis=1)
     assert turned == pytest.approx(expected, abs=1e-12)
 
 

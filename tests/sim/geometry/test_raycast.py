@@ -26,11 +26,7 @@ ENOUGH = LOADING + 1
 NO_SEGMENTS, NO_DISCS = np.empty((0, 4)), np.empty((0, 3))
 
 both = pytest.mark.parametrize(
-    "name",
-    [
-        "numpy",
-        pytest.param("numba", marks=pytest.mark.skipif(not HAS_NUMBA, reason="numba is not installed")),
-    ],
+    "name", ["numpy", pytest.param("numba", marks=pytest.mark.skipif(not HAS_NUMBA, reason="numba is not installed"))]
 )
 
 
@@ -43,16 +39,7 @@ ROOM = closed((-2, -1), (3, -1), (3, 4), (-2, 4))
 
 
 def look(
-    segments=NO_SEGMENTS,
-    discs=NO_DISCS,
-    x=0.0,
-    y=0.0,
-    *,
-    start=0.0,
-    step=TURN / 360,
-    count=360,
-    reach=50.0,
-    **options,
+    segments=NO_SEGMENTS, discs=NO_DISCS, x=0.0, y=0.0, *, start=0.0, step=TURN / 360, count=360, reach=50.0, **options
 ):
     return raycast(segments, discs, x, y, start, step, count, reach, **options)
 
@@ -159,9 +146,7 @@ def test_no_ray_slips_between_walls_that_share_a_corner(name):
                 continue
             radii = rng.uniform(0.5, 30, corners)
             points = np.column_stack([radii * np.cos(angles), radii * np.sin(angles)])
-            sides = np.hstack([points, np.roll(points, -1, axis=0)]) + rng.uniform(
-                -3e-10, 3e-10, (corners, 4)
-            )
+            sides = np.hstack([points, np.roll(points, -1, axis=0)]) + rng.uniform(-3e-10, 3e-10, (corners, 4))
             for angle, radius in zip(angles, radii, strict=True):
                 assert one(sides, angle=float(angle), backend=name) <= radius + 1e-6
 
@@ -175,12 +160,8 @@ def test_a_closed_room_is_closed_wherever_the_first_ray_looks(name, start, x, y)
 @both
 def test_rays_may_go_round_more_than_once(name):
     once = look(ROOM, [(1, 1, 0.3)], backend=name)
-    np.testing.assert_allclose(
-        look(ROOM, [(1, 1, 0.3)], count=1000, backend=name), np.tile(once, 3)[:1000], atol=1e-9
-    )
-    np.testing.assert_allclose(
-        look(ROOM, [(1, 1, 0.3)], step=TURN + TURN / 360, backend=name), once, atol=1e-9
-    )
+    np.testing.assert_allclose(look(ROOM, [(1, 1, 0.3)], count=1000, backend=name), np.tile(once, 3)[:1000], atol=1e-9)
+    np.testing.assert_allclose(look(ROOM, [(1, 1, 0.3)], step=TURN + TURN / 360, backend=name), once, atol=1e-9)
 
 
 # ---- against a plain loop, and each other ----
@@ -254,9 +235,7 @@ def test_more_pairs_than_numpy_takes_at_once():
     starts = rng.uniform(-1, 1, (2_000, 2))
     segments = np.hstack([starts, starts + rng.uniform(-1, 1, starts.shape)])
     seen = look(segments, step=TURN / 5_000, count=5_000, backend="numpy")
-    np.testing.assert_allclose(
-        seen, look(segments, step=TURN / 5_000, count=5_000, backend="numba"), atol=1e-9
-    )
+    np.testing.assert_allclose(seen, look(segments, step=TURN / 5_000, count=5_000, backend="numba"), atol=1e-9)
 
 
 @both
@@ -423,18 +402,14 @@ def sweeps(draw):
 @given(sweep=sweeps())
 def test_each_ray_sees_what_it_would_see_alone(name, sweep):
     walls, pillars, origins, angles, rays = sweep
-    ranges = raycast_each(
-        walls, pillars, origins, angles, 4.0, segment_rays=rays[0], disc_rays=rays[1], backend=name
-    )
+    ranges = raycast_each(walls, pillars, origins, angles, 4.0, segment_rays=rays[0], disc_rays=rays[1], backend=name)
     spans = [np.array(each, dtype=int).reshape(-1, 2) for each in rays]
     for i, ((x, y), angle) in enumerate(zip(origins.tolist(), angles.tolist(), strict=True)):
         there = [(span[:, 0] <= i) & (i < span[:, 1]) for span in spans]
         alone = raycast(walls[there[0]], pillars[there[1]], x, y, angle, 0.1, 1, 4.0, backend=name)[0]
         if ranges[i] != alone:
             nudged = [
-                raycast(
-                    walls[there[0]], pillars[there[1]], x, y, angle + off, 0.1, 1, 4.0 + 1e-8, backend=name
-                )[0]
+                raycast(walls[there[0]], pillars[there[1]], x, y, angle + off, 0.1, 1, 4.0 + 1e-8, backend=name)[0]
                 for off in (-1e-7, 0.0, 1e-7)
             ]  # at an edge a hair's breadth changes a range by metres
             assert min(nudged) - 1e-5 <= ranges[i] <= max(*nudged, alone) + 1e-5

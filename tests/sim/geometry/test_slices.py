@@ -42,12 +42,7 @@ def test_a_cut_through_a_tetrahedron_is_a_triangle():
 
 squares = st.tuples(number, number, st.integers(1, 20).map(lambda v: v / 4)).map(
     lambda s: np.array(
-        [
-            (s[0] - s[2], s[1] - s[2]),
-            (s[0] + s[2], s[1] - s[2]),
-            (s[0] + s[2], s[1] + s[2]),
-            (s[0] - s[2], s[1] + s[2]),
-        ]
+        [(s[0] - s[2], s[1] - s[2]), (s[0] + s[2], s[1] - s[2]), (s[0] + s[2], s[1] + s[2]), (s[0] - s[2], s[1] + s[2])]
     )
 )
 

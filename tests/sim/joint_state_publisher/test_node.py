@@ -64,9 +64,7 @@ def test_with_robot_state_publisher_all_frames_are_there(graph):
     rosrun("robot_state_publisher", "robot_state_publisher", graph=graph).instance()
     graph.run(0.5)
     assert {"wheel_left_link", "camera_depth_optical_frame"} <= set(buffer.tree)
-    assert buffer.tree.lookup("base_footprint", "wheel_left_link").transform[:3] == pytest.approx(
-        (0, 0.144, 0.033)
-    )
+    assert buffer.tree.lookup("base_footprint", "wheel_left_link").transform[:3] == pytest.approx((0, 0.144, 0.033))
 
 
 @pytest.mark.parametrize(

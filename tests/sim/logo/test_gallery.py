@@ -28,8 +28,7 @@ def test_each_fits_into_the_window(path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "lines"),
-    [("square", 4), ("star", 5), ("koch", 3 * 4**4), ("dragon", 2**10), ("hilbert", 4**5 - 1)],
+    ("name", "lines"), [("square", 4), ("star", 5), ("koch", 3 * 4**4), ("dragon", 2**10), ("hilbert", 4**5 - 1)]
 )
 def test_number_of_lines(name, lines):
     assert len(drawn(name).drawing.lines) == lines

@@ -281,9 +281,7 @@ def operations(children):
 
 @given(
     st.recursive(
-        NUMBERS.map(lambda value: f"{value:.6f}" if isinstance(value, float) else str(value)),
-        operations,
-        max_leaves=8,
+        NUMBERS.map(lambda value: f"{value:.6f}" if isinstance(value, float) else str(value)), operations, max_leaves=8
     )
 )
 def test_arithmetic_agrees_with_python(expression):

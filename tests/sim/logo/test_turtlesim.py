@@ -54,9 +54,7 @@ def test_a_new_turtle_turns_up_and_draws_a_square(sim, node):
     assert place(sim) == pytest.approx((0, 100, 0), abs=1e-4)
     logo.run("repeat 3 [forward 100 right 90]")
     assert place(sim) == pytest.approx((0, 0, pi / 2), abs=1e-4)
-    lines = [
-        stroke for stroke in sim.frame.paper.strokes() if (stroke.x1, stroke.y1) != (stroke.x2, stroke.y2)
-    ]
+    lines = [stroke for stroke in sim.frame.paper.strokes() if (stroke.x1, stroke.y1) != (stroke.x2, stroke.y2)]
     assert len(lines) == len(logo.drawing.lines) == 4
 
 
@@ -95,9 +93,7 @@ def test_several_turtles(sim, node):
 def test_turtles_moved_spawned_and_killed_by_others(sim, node, graph):
     logo = Logo.on(node)
     logo.run("forward 10")
-    node.service_client("turtle1/teleport_absolute", service_class("turtlesim/TeleportAbsolute"))(
-        1.0, 2.0, 0.0
-    )
+    node.service_client("turtle1/teleport_absolute", service_class("turtlesim/TeleportAbsolute"))(1.0, 2.0, 0.0)
     sim.spawn(2.0, 3.0, 0.0, "ann")
     graph.run(0.1)
     assert printed(logo, 'print xcor ask "ann [print heading]') == ["-204.5", "90"]
@@ -108,9 +104,7 @@ def test_turtles_moved_spawned_and_killed_by_others(sim, node, graph):
 
 def test_a_turtle_stays_in_the_window(sim, node):
     logo = Logo.on(node)
-    with pytest.raises(
-        LogoError, match=r"line 2: turtle out of bounds: turtle1 would leave the window at \[0 1010\]"
-    ):
+    with pytest.raises(LogoError, match=r"line 2: turtle out of bounds: turtle1 would leave the window at \[0 1010\]"):
         logo.run("forward 10\nforward 1000")
     assert place(sim) == pytest.approx((0, 10, pi / 2), abs=1e-4)
     logo.run("home forward 249.5")
@@ -134,9 +128,7 @@ def test_a_simulator_that_has_ended_is_reported(sim, node):
 
 
 def test_unknown_names(sim, node):
-    with pytest.raises(
-        LogoError, match=r"no turtle and no robot turtle9 in the graph; did you mean turtle1\?"
-    ):
+    with pytest.raises(LogoError, match=r"no turtle and no robot turtle9 in the graph; did you mean turtle1\?"):
         Logo.on(node, "turtle9")
 
 

@@ -43,9 +43,7 @@ def test_what_is_sent_of_a_robot():
     assert 2 * math.asin(sent["d"][3]) == pytest.approx(-0.5)
     assert 2 * math.asin(sent["c"][3]) == pytest.approx(0.0)
     # One that mimics and is told of itself stands where it is told; nothing is said of what is not known.
-    assert 2 * math.asin(
-        {c: t for _, c, t in chain.transforms({"z": 0.5, "m1": 0.2})}["d"][3]
-    ) == pytest.approx(0.2)
+    assert 2 * math.asin({c: t for _, c, t in chain.transforms({"z": 0.5, "m1": 0.2})}["d"][3]) == pytest.approx(0.2)
     assert chain.transforms({}) == []
 
 

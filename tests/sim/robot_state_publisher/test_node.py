@@ -61,9 +61,7 @@ def count(graph, topic):
 
 def test_a_joint_is_told_at_most_so_often(graph):
     heard = count(graph, "/tf")
-    rosrun(
-        "robot_state_publisher", "robot_state_publisher", "_publish_frequency:=10.0", graph=graph
-    ).instance()
+    rosrun("robot_state_publisher", "robot_state_publisher", "_publish_frequency:=10.0", graph=graph).instance()
     tell = joints(graph)
     graph.node("t").timer(0.02, lambda _: tell(0, 0))
     graph.run(1.01)
@@ -73,9 +71,7 @@ def test_a_joint_is_told_at_most_so_often(graph):
 
 def test_or_as_often_as_it_is_heard_of(graph):
     heard = count(graph, "/tf")
-    rosrun(
-        "robot_state_publisher", "robot_state_publisher", "_ignore_timestamp:=true", graph=graph
-    ).instance()
+    rosrun("robot_state_publisher", "robot_state_publisher", "_ignore_timestamp:=true", graph=graph).instance()
     tell = joints(graph)
     graph.node("t").timer(0.005, lambda _: tell(0, 0))
     graph.run(0.501)
@@ -142,9 +138,7 @@ def test_old_joint_states_are_told_of_and_warned_about(graph, capsys):
 
 def test_without_a_description_it_says_what_to_do():
     with Graph() as graph:
-        with pytest.raises(
-            ParameterNotSet, match="needs the parameter robot_description, a URDF, which is not set"
-        ):
+        with pytest.raises(ParameterNotSet, match="needs the parameter robot_description, a URDF, which is not set"):
             rosrun("robot_state_publisher", "robot_state_publisher", graph=graph).instance()
         graph.node("setter").set_param("/robot_description", "<robot name='r'>\n<link/></robot>")
         with pytest.raises(UrdfError, match=r"^/robot_description:2: name"):
@@ -160,9 +154,7 @@ def test_what_is_no_description_is_not_taken_for_a_file(text, message):
 
 
 def test_what_is_doubtful_in_the_description_is_said(capsys):
-    inertial = (
-        '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
-    )
+    inertial = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
     with Graph() as graph:
         graph.node("setter").set_param(
             "/robot_description", f'<robot name="r"><link name="a">{inertial}</link></robot>'

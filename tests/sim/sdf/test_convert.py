@@ -45,9 +45,7 @@ def obstacles(*models):
 def test_what_stands_upright_is_as_it_is():
     (box,) = obstacles(model(geometry(BOX), pose="1 2 0.25 0 0 0.7"))
     assert box == Obstacle("m", Box(2, 1), (1, 2, 0.7), 0.5)
-    (pillar,) = obstacles(
-        model(geometry("<cylinder><radius>0.3</radius><length>2</length></cylinder>", "0 0 1 0 0 0"))
-    )
+    (pillar,) = obstacles(model(geometry("<cylinder><radius>0.3</radius><length>2</length></cylinder>", "0 0 1 0 0 0")))
     assert (pillar.shape, pillar.bottom, pillar.height) == (Cylinder(0.3), 0, 2)
     (lamp,) = obstacles(model(geometry("<sphere><radius>0.2</radius></sphere>", "0 1 2 0 0 0")))
     assert (lamp.shape, lamp.pose, lamp.height) == (Sphere(0.2), (0, 1, 0), pytest.approx(2.2))
@@ -68,17 +66,9 @@ def test_poses_of_model_link_and_collision_add_up():
 def test_what_stands_aslant_is_its_shadow(roll, pitch, yaw):
     (box,) = obstacles(model(geometry(BOX), pose=f"0 0 5 {roll} {pitch} {yaw}"))
     # The extent along any direction of a box is the sum of what its sides have of it.
-    x = (
-        math.cos(pitch) * 2,
-        abs(math.sin(pitch) * math.sin(roll)) * 1,
-        abs(math.sin(pitch) * math.cos(roll)) * 0.5,
-    )
+    x = (math.cos(pitch) * 2, abs(math.sin(pitch) * math.sin(roll)) * 1, abs(math.sin(pitch) * math.cos(roll)) * 0.5)
     y = (0.0, math.cos(roll) * 1, abs(math.sin(roll)) * 0.5)
-    z = (
-        abs(math.sin(pitch)) * 2,
-        abs(math.cos(pitch) * math.sin(roll)),
-        math.cos(pitch) * math.cos(roll) * 0.5,
-    )
+    z = (abs(math.sin(pitch)) * 2, abs(math.cos(pitch) * math.sin(roll)), math.cos(pitch) * math.cos(roll) * 0.5)
     turned = box.outline() @ [[math.cos(yaw), -math.sin(yaw)], [math.sin(yaw), math.cos(yaw)]]
     assert np.ptp(turned, axis=0) == pytest.approx((sum(x), sum(y)), abs=1e-6)
     assert box.height - box.bottom == pytest.approx(sum(z), abs=1e-6)
@@ -108,12 +98,10 @@ def test_what_is_tilted_is_noted_and_what_lies_on_a_side_of_it_is_exact():
 def test_a_static_model_is_an_obstacle_for_each_part_with_colours_of_its_visuals():
     collisions = geometry(BOX, "0 0 1 0 0 0", "top") + geometry(BOX, "3 0 0.25 0 0 0", "foot")
     visual = (
-        f"<visual name='top'><geometry>{BOX}</geometry><material><diffuse>0 0.447 0.698 1</diffuse>"
-        "</material></visual>"
+        f"<visual name='top'><geometry>{BOX}</geometry><material><diffuse>0 0.447 0.698 1</diffuse></material></visual>"
     )
     foot = (
-        f"<visual name='foot'><geometry>{BOX}</geometry><material><diffuse>0.2 0.4 0.6 1</diffuse>"
-        "</material></visual>"
+        f"<visual name='foot'><geometry>{BOX}</geometry><material><diffuse>0.2 0.4 0.6 1</diffuse></material></visual>"
     )
     found = obstacles(model(collisions + visual + foot, name="table"))
     assert [(each.name, each.bottom, each.colour) for each in found] == [
@@ -137,9 +125,7 @@ def test_the_ground_is_no_obstacle_and_neither_is_what_is_under_it_or_flat_on_it
         model(geometry("<box><size>1 1 0.01</size></box>"), name="carpet"),
         model(geometry(BOX), name="half", pose="0 0 0.1 0 0 0"),
     )
-    assert [(each.name, each.bottom, each.height) for each in world.obstacles] == [
-        ("half", 0, pytest.approx(0.35))
-    ]
+    assert [(each.name, each.bottom, each.height) for each in world.obstacles] == [("half", 0, pytest.approx(0.35))]
     ground, carpet = (note.text for note in notes)
     assert "'ground'" in ground
     assert "'carpet' is 5 mm high" in carpet
@@ -149,19 +135,13 @@ def test_polylines_are_polygons_and_rings_of_them_are_hollow():
     def square(r):
         return "".join(f"<point>{x} {y}</point>" for x, y in ((-r, -r), (-r, r), (r, r), (r, -r)))
 
-    (block,) = obstacles(
-        model(geometry(f"<polyline>{square(1)}<height>0.4</height></polyline>", "0 0 0.2 0 0 0"))
-    )
+    (block,) = obstacles(model(geometry(f"<polyline>{square(1)}<height>0.4</height></polyline>", "0 0 0.2 0 0 0")))
     assert isinstance(block.shape, Polygon)
     assert (block.bottom, block.height) == pytest.approx((0.2, 0.6))
     fence = World(
         "fence",
         obstacles(
-            model(
-                geometry(
-                    f"<polyline>{square(2)}<height>1</height></polyline><polyline>{square(1.9)}</polyline>"
-                )
-            )
+            model(geometry(f"<polyline>{square(2)}<height>1</height></polyline><polyline>{square(1.9)}</polyline>"))
         ),
     )
     for x, y in ((0, 0), (1.8, 1.8), (-1.85, 0.3), (2.1, 0)):
@@ -175,20 +155,14 @@ def test_polylines_are_polygons_and_rings_of_them_are_hollow():
 
 
 def test_a_model_that_is_not_static_is_one_thing_with_the_mass_of_its_links():
-    link = (
-        "<link name='k'><pose>0 1 0 0 0 0</pose><inertial><mass>2</mass></inertial>"
-        + geometry(BOX)
-        + "</link>"
-    )
+    link = "<link name='k'><pose>0 1 0 0 0 0</pose><inertial><mass>2</mass></inertial>" + geometry(BOX) + "</link>"
     wheel = "<joint name='j' type='revolute'><parent>l</parent><child>k</child></joint>"
     world, notes = flat(model(geometry(BOX), pose="1 1 0.25 0 0 1", static=False, more=link + wheel))
     (thing,) = world.obstacles
     assert (thing.name, thing.mass, thing.pose) == ("m", 3, (1, 1, 1))
     assert thing.shape == Compound(((Box(2, 1), (0, 0, 0)), (Box(2, 1), (0, 1, 0))))
     assert ["joints of the model 'm'" in note.text for note in notes] == [True]
-    (ball,) = obstacles(
-        model(geometry("<sphere><radius>0.1</radius></sphere>"), pose="3 1 0.1 0 0 1", static=False)
-    )
+    (ball,) = obstacles(model(geometry("<sphere><radius>0.1</radius></sphere>"), pose="3 1 0.1 0 0 1", static=False))
     assert ball == Obstacle("m", Sphere(0.1), (3, 1, 1), mass=1)
 
 
@@ -229,9 +203,7 @@ def test_doors_turn_about_their_hinges_or_slide():
 
 
 def actor(times, *, loop=True):
-    points = "".join(
-        f"<waypoint><time>{t}</time><pose>{x} {y} 1 0 0 0</pose></waypoint>" for t, x, y in times
-    )
+    points = "".join(f"<waypoint><time>{t}</time><pose>{x} {y} 1 0 0 0</pose></waypoint>" for t, x, y in times)
     return (
         f"<actor name='a'><script><loop>{str(loop).lower()}</loop>"
         f"<trajectory id='0' type='w'>{points}</trajectory></script></actor>"
@@ -266,16 +238,11 @@ turns = st.floats(-3, 3).map(lambda v: round(v, 3))
 planar = st.tuples(places, places, turns)
 hexagons = sizes.map(
     lambda r: Polygon(
-        tuple(
-            (round(r * math.cos(i * math.pi / 3), 6), round(r * math.sin(i * math.pi / 3), 6))
-            for i in range(6)
-        )
+        tuple((round(r * math.cos(i * math.pi / 3), 6), round(r * math.sin(i * math.pi / 3), 6)) for i in range(6))
     )
 )
 simple = st.one_of(st.builds(Box, sizes, sizes), st.builds(Cylinder, sizes), hexagons)
-compounds = st.lists(st.tuples(simple, planar), min_size=2, max_size=3).map(
-    lambda parts: Compound(tuple(parts))
-)
+compounds = st.lists(st.tuples(simple, planar), min_size=2, max_size=3).map(lambda parts: Compound(tuple(parts)))
 bottoms = st.sampled_from([0.0, 0.25, 1.0])
 colours = st.sampled_from([*HOUSE.values(), "#12ab34", "#ffffff"])
 
@@ -287,15 +254,11 @@ def things(draw):
     for i in range(number):
         bottom = draw(bottoms)
         kind = draw(st.sampled_from(["fixed", "movable", "door", "walker"]))
-        shape = draw(
-            st.one_of(simple, st.builds(Sphere, sizes)) if kind != "movable" else st.one_of(simple, compounds)
-        )
+        shape = draw(st.one_of(simple, st.builds(Sphere, sizes)) if kind != "movable" else st.one_of(simple, compounds))
         top = round(bottom + draw(sizes), 3)
         mass = draw(sizes) if kind == "movable" else None
         motion = (
-            Door(
-                draw(sizes), draw(st.tuples(sizes, sizes)), draw(st.sampled_from([None, 0.0, 1.5])), 1.5, 4, 3
-            )
+            Door(draw(sizes), draw(st.tuples(sizes, sizes)), draw(st.sampled_from([None, 0.0, 1.5])), 1.5, 4, 3)
             if kind == "door"
             else None
         )
@@ -311,14 +274,9 @@ def things(draw):
             )
             found.append(Obstacle(f"thing {i}", Cylinder(0.2), (x, y, 0.0), 1.75, "purple", motion=motion))
         else:
-            surface = {
-                "drag": draw(st.sampled_from([None, 0.3])),
-                "restitution": draw(st.sampled_from([0.0, 0.5])),
-            }
+            surface = {"drag": draw(st.sampled_from([None, 0.3])), "restitution": draw(st.sampled_from([0.0, 0.5]))}
             name, at, colour = f"thing {i}", draw(planar), draw(colours)
-            found.append(
-                Obstacle(name, shape, at, top, colour, mass, bottom, motion, **(surface if mass else {}))
-            )
+            found.append(Obstacle(name, shape, at, top, colour, mass, bottom, motion, **(surface if mass else {})))
     return tuple(found)
 
 

@@ -51,21 +51,13 @@ def obj(*parts):
         lines.append(f"o part{i}")
         lines += [f"v {x!r} {y!r} {z!r}" for x, y, z in triangles.reshape(-1, 3).tolist()]
         lines += [
-            f"f {count + 3 * k + 1}/1/1 {count + 3 * k + 2}//2 {count + 3 * k + 3}"
-            for k in range(len(triangles))
+            f"f {count + 3 * k + 1}/1/1 {count + 3 * k + 2}//2 {count + 3 * k + 3}" for k in range(len(triangles))
         ]
         count += 3 * len(triangles)
     return "\n".join(lines).encode()
 
 
-def dae(
-    triangles,
-    *,
-    unit=1.0,
-    up="Z_UP",
-    node="<matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</matrix>",
-    kind="triangles",
-):
+def dae(triangles, *, unit=1.0, up="Z_UP", node="<matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</matrix>", kind="triangles"):
     numbers = " ".join(repr(v) for v in triangles.ravel().tolist())
     count = len(triangles) * 3
     order = " ".join(f"{i} 0" for i in range(count))
@@ -98,10 +90,7 @@ def load_mesh(path, part=""):
         ("m.dae", dae(TABLE * 100, unit=0.01)),
         ("m.dae", dae(TABLE, up="Y_UP")),
         ("m.dae", dae(TABLE / 2 - (1, 0, 0), node="<scale>2 2 2</scale><translate>1 0 0</translate>")),
-        (
-            "m.dae",
-            dae(TABLE @ np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]]), node="<rotate>0 0 1 90</rotate>"),
-        ),
+        ("m.dae", dae(TABLE @ np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]]), node="<rotate>0 0 1 90</rotate>")),
     ],
 )
 def test_every_kind_of_mesh_gives_its_triangles(tmp_path, name, data):
@@ -141,9 +130,7 @@ def test_a_mesh_is_at_each_height_what_it_is_there(tmp_path):
 
 def test_a_mesh_is_scaled_and_turned(tmp_path):
     (tmp_path / "m.stl").write_bytes(binary_stl(TABLE))
-    _, top = to_world(
-        world_of(tmp_path / "m.stl", pose="0 0 0 0 0 1.5707963267948966", scale="2 1 0.5")
-    ).obstacles
+    _, top = to_world(world_of(tmp_path / "m.stl", pose="0 0 0 0 0 1.5707963267948966", scale="2 1 0.5")).obstacles
     assert np.ptp(top.outline(), axis=0) == pytest.approx((0.6, 2), abs=1e-6)
     assert top.height == pytest.approx(0.375)
 

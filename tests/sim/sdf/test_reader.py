@@ -96,11 +96,11 @@ def test_a_world_is_read_with_all_its_parts():
     )
     (made,) = found.worlds
     assert found.version == "1.7"
-    assert (
-        made.physics.max_step_size,
-        made.physics.real_time_factor,
-        made.physics.real_time_update_rate,
-    ) == (0.002, 2, 0)
+    assert (made.physics.max_step_size, made.physics.real_time_factor, made.physics.real_time_update_rate) == (
+        0.002,
+        2,
+        0,
+    )
     assert made.gravity == (0, 0, -1.62)
     assert made.plugins[0].filename == "libp.so"
     assert made.plugins[0].element.word("a") == "1"
@@ -192,9 +192,7 @@ def brick(tmp_path, monkeypatch):
         encoding="utf-8",
     )
     (folder / "new.sdf").write_text(
-        model(
-            f"<pose>0 0 1 0 0 0</pose><link name='l'><collision name='c'>{BOX}</collision></link>", "brick"
-        ),
+        model(f"<pose>0 0 1 0 0 0</pose><link name='l'><collision name='c'>{BOX}</collision></link>", "brick"),
         encoding="utf-8",
     )
     monkeypatch.setenv("GAZEBO_MODEL_PATH", f"{tmp_path / 'nowhere'}:{tmp_path / 'models'}")
@@ -222,18 +220,14 @@ def test_a_model_may_hold_another(brick):
 
 
 def test_the_ground_and_the_sun_are_known():
-    found = load(
-        world("<include><uri>model://ground_plane</uri></include><include><uri>model://sun</uri></include>")
-    )
+    found = load(world("<include><uri>model://ground_plane</uri></include><include><uri>model://sun</uri></include>"))
     assert [each.name for each in found.worlds[0].models] == ["ground_plane"]
 
 
 def test_the_ground_and_the_sun_are_fetched_from_no_server():
     server = "https://fuel.example/1.0/OpenRobotics/models"
     found = load(
-        world(
-            f"<include><uri>{server}/Ground Plane</uri></include><include><uri>{server}/Sun</uri></include>"
-        )
+        world(f"<include><uri>{server}/Ground Plane</uri></include><include><uri>{server}/Sun</uri></include>")
     )
     assert [each.name for each in found.worlds[0].models] == ["ground_plane"]
 
@@ -274,9 +268,7 @@ def test_packages_may_bring_models(tmp_path, monkeypatch, brick, separator):
 
 
 def test_a_model_that_includes_itself_is_an_error(brick):
-    (brick / "new.sdf").write_text(
-        model("<include><uri>model://brick</uri></include>", "brick"), encoding="utf-8"
-    )
+    (brick / "new.sdf").write_text(model("<include><uri>model://brick</uri></include>", "brick"), encoding="utf-8")
     with pytest.raises(SdfError, match="include"):
         load(world("<include><uri>model://brick</uri></include>"))
 
@@ -342,9 +334,7 @@ def test_what_is_not_there_or_cannot_be_is_left_out_or_replaced_with_a_warning(t
 @pytest.mark.parametrize(("text", "wanted"), [("True", True), (" 1 ", True), ("FALSE", False), ("0", False)])
 def test_booleans_and_white_space_are_read_as_libsdformat_reads_them(text, wanted):
     size = "<geometry><box><size>1\t0\n  3.5e0 </size></box></geometry>"
-    found = load(
-        model(f"<static>{text}</static><link name='l'><visual name='v'>{size}</visual></link>")
-    ).models[0]
+    found = load(model(f"<static>{text}</static><link name='l'><visual name='v'>{size}</visual></link>")).models[0]
     assert found.static is wanted
     assert found.links[0].visuals[0].geometry.size == (1.0, 1e-4, 3.5)
 
@@ -368,8 +358,7 @@ def test_the_rest_of_a_world_stands_and_all_that_is_wrong_is_told_at_once(tmp_pa
             encoding="utf-8",
         )
         (folder / "model.sdf").write_text(
-            f"<sdf version='1.6'><model name='{name.replace('/', '_')}'>{text}</model></sdf>",
-            encoding="utf-8",
+            f"<sdf version='1.6'><model name='{name.replace('/', '_')}'>{text}</model></sdf>", encoding="utf-8"
         )
     text = world(
         """<include><uri>model://sun</uri></include><include><uri>model://ground_plane</uri></include>
@@ -422,17 +411,14 @@ def test_models_that_include_one_another_end(tmp_path, monkeypatch):
     with pytest.raises(SdfError, match="includes of this world have more than 10000 elements"):
         load(reading, models=[tmp_path])
     (tmp_path / "m1" / "model.sdf").write_text(
-        "<sdf version='1.6'><model name='m1'><include><uri>model://m1</uri></include></model></sdf>",
-        encoding="utf-8",
+        "<sdf version='1.6'><model name='m1'><include><uri>model://m1</uri></include></model></sdf>", encoding="utf-8"
     )
     with pytest.raises(SdfError, match=r"m1.model\.sdf:1: .* does 'model://m1' include itself"):
         load(reading, models=[tmp_path])
 
 
 def test_an_address_of_a_file_is_a_path_as_this_system_has_them(tmp_path, monkeypatch):
-    monkeypatch.setattr(
-        "urllib.request.url2pathname", lambda path: {"/C:/house": str(tmp_path)}.get(path, path)
-    )
+    monkeypatch.setattr("urllib.request.url2pathname", lambda path: {"/C:/house": str(tmp_path)}.get(path, path))
     (tmp_path / "model.sdf").write_text(
         "<sdf version='1.6'><model name='m'><link name='l'/></model></sdf>", encoding="utf-8"
     )

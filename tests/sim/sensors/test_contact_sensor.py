@@ -6,14 +6,7 @@ import math
 
 import pytest
 
-from rosmini.sim.sensors.contact_sensor import (
-    KOBUKI_BUMPER,
-    TURTLEBOT3_BUMPER,
-    BumperModel,
-    Sector,
-    bits,
-    pressed,
-)
+from rosmini.sim.sensors.contact_sensor import KOBUKI_BUMPER, TURTLEBOT3_BUMPER, BumperModel, Sector, bits, pressed
 
 
 def names(bumper, pose, *contacts):
@@ -26,9 +19,7 @@ def names(bumper, pose, *contacts):
 )
 def test_turtlebot3_knows_front_and_back(degrees, wanted):
     angle = math.radians(degrees)
-    assert (
-        names(TURTLEBOT3_BUMPER, (0, 0, 0), ((0.1 * math.cos(angle), 0.1 * math.sin(angle)), 1.0)) == wanted
-    )
+    assert names(TURTLEBOT3_BUMPER, (0, 0, 0), ((0.1 * math.cos(angle), 0.1 * math.sin(angle)), 1.0)) == wanted
 
 
 def test_sides_are_those_of_the_robot_wherever_it_stands():
@@ -38,9 +29,7 @@ def test_sides_are_those_of_the_robot_wherever_it_stands():
 
 
 def test_several_may_be_pressed_and_their_bits_add_up():
-    sectors = pressed(
-        TURTLEBOT3_BUMPER, (0, 0, 0), [((0.1, 0.0), 1.0), ((-0.1, 0.01), 1.0), ((0.1, 0.05), 1.0)]
-    )
+    sectors = pressed(TURTLEBOT3_BUMPER, (0, 0, 0), [((0.1, 0.0), 1.0), ((-0.1, 0.01), 1.0), ((0.1, 0.05), 1.0)])
     assert bits(sectors) == 3
     assert bits(pressed(TURTLEBOT3_BUMPER, (0, 0, 0), [])) == 0
 

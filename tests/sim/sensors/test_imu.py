@@ -50,11 +50,7 @@ def test_accelerations_are_the_second_derivative_of_the_way():
 def test_noise_over_fifty_seeds_has_the_stated_deviations():
     model = ImuModel((0.0, 0.0, 0.0), 200.0, 0.01, 0.1)
     short = np.array(
-        [
-            read(Imu(model, np.random.default_rng(seed)), i, 0.0, 0.0, 0.0, 0.0)
-            for seed in range(50)
-            for i in (0, 300)
-        ]
+        [read(Imu(model, np.random.default_rng(seed)), i, 0.0, 0.0, 0.0, 0.0) for seed in range(50) for i in (0, 300)]
     )
     many = Imu(model, np.random.default_rng(7))
     long = np.array([read(many, i, 0.0, 0.0, 0.0, 0.0) for i in range(5000)]) - (0, 0, 0, 0, 0, GRAVITY)
@@ -90,9 +86,7 @@ def test_its_scale_is_off_by_as_much_as_stated_from_unit_to_unit():
 
 
 def test_a_calibrated_gyroscope_shows_up_to_one_step_at_rest():
-    biases = (
-        np.array([Imu(MODEL, np.random.default_rng(seed)).bias[:3] for seed in range(400)]) / MODEL.gyro_step
-    )
+    biases = np.array([Imu(MODEL, np.random.default_rng(seed)).bias[:3] for seed in range(400)]) / MODEL.gyro_step
     blur = 4 * MODEL.gyro_noise / MODEL.gyro_step / math.sqrt(512)
     assert -blur < biases.min() and biases.max() < 1 + blur
     assert biases.mean() == pytest.approx(0.5, abs=0.04)

@@ -54,13 +54,7 @@ def test_camera_info_has_the_numbers_that_gazebo_ros_writes():
     assert camera_info(CAMERA, baseline=0.07).P[3] == pytest.approx(-0.07 * CAMERA.focal_length)
 
 
-@given(
-    x=st.floats(-3, 3),
-    y=st.floats(-3, 3),
-    theta=st.floats(-4, 4),
-    yaw=st.floats(-2, 2),
-    pitch=st.floats(-1, 1),
-)
+@given(x=st.floats(-3, 3), y=st.floats(-3, 3), theta=st.floats(-4, 4), yaw=st.floats(-2, 2), pitch=st.floats(-1, 1))
 def test_a_point_is_seen_where_the_camera_matrix_says(x, y, theta, yaw, pitch):
     camera = CameraModel("camera", (0.1, 0.05, 0.3), 320, 240, 1.2, yaw=yaw, pitch=pitch)
     eye = eye_of(camera, (x, y, theta))
@@ -216,9 +210,7 @@ def test_no_gap_is_seen_between_faces_that_meet():
 
 def test_things_have_their_colours_and_faces_differ_in_the_light():
     image = render(at((0.0, 0.0, 0.8), pitch=0.3), HERE, [part(Box(0.5, 0.5), (2.0, 0.0, 0.6))])
-    blue = image[
-        (image[..., 2] > image[..., 0].astype(int) + 60) & (image[..., 2] < image[..., 1].astype(int) * 2)
-    ]
+    blue = image[(image[..., 2] > image[..., 0].astype(int) + 60) & (image[..., 2] < image[..., 1].astype(int) * 2)]
     assert len(np.unique(blue.reshape(-1, 3), axis=0)) >= 3
     red, green, bright = blue.mean(axis=0)
     assert red < 60 and green < bright

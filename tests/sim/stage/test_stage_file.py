@@ -53,9 +53,7 @@ def robot(text: str) -> str:
 
 
 def test_words_have_their_lines():
-    found = [
-        (word.kind, word.text, word.place.line) for word in tokens('a 1 # ( "\n\nb[3] "x y"\r\n( -.5 ]', PATH)
-    ]
+    found = [(word.kind, word.text, word.place.line) for word in tokens('a 1 # ( "\n\nb[3] "x y"\r\n( -.5 ]', PATH)]
     assert found == [("word", "a", 1), ("number", "1", 1), ("word", "b[3]", 3), ("string", "x y", 3), ("(", "(", 4),
         ("number", "-.5", 4), ("]", "]", 4)]  # fmt: skip
 
@@ -94,9 +92,7 @@ def as_data(entity):
 
 def in_lists(entity):
     """The same entity with every value in a list, as the parser keeps them."""
-    properties = {
-        name: value if isinstance(value, list) else [value] for name, value in entity["properties"].items()
-    }
+    properties = {name: value if isinstance(value, list) else [value] for name, value in entity["properties"].items()}
     return {**entity, "properties": properties, "children": [in_lists(child) for child in entity["children"]]}
 
 
@@ -224,9 +220,7 @@ def test_files_that_nest_too_deep_are_refused():
 def test_included_files_are_sought_beside_the_world_and_beside_the_file(tmp_path: Path, world, monkeypatch):
     (tmp_path / "inc").mkdir()
     (tmp_path / "inc" / "a.inc").write_text('include "b.inc"\n', encoding="utf-8")
-    (tmp_path / "inc" / "b.inc").write_text(
-        "\ndefine thing model ( size [1 2 3] colour 3 )\n", encoding="utf-8"
-    )
+    (tmp_path / "inc" / "b.inc").write_text("\ndefine thing model ( size [1 2 3] colour 3 )\n", encoding="utf-8")
     stage = world('include "inc/a.inc"\nthing( name "t" )\n')
     assert stage.world.obstacles[0].shape == Box(1.0, 2.0)
     assert stage.notes[0].startswith(f"{tmp_path / 'inc' / 'b.inc'}:2: a property")
@@ -278,12 +272,7 @@ def test_units(world):
 
 
 @given(
-    st.floats(-5, 5),
-    st.floats(-5, 5),
-    st.floats(-180, 180),
-    st.floats(-1, 1),
-    st.floats(-1, 1),
-    st.floats(-180, 180),
+    st.floats(-5, 5), st.floats(-5, 5), st.floats(-180, 180), st.floats(-1, 1), st.floats(-1, 1), st.floats(-180, 180)
 )
 def test_a_body_is_about_its_origin_seen_from_its_pose(tmp_path_factory, x, y, a, ox, oy, oa):
     path = tmp_path_factory.mktemp("stage") / "a.world"
@@ -313,8 +302,7 @@ def test_children_stand_on_their_parents(world):
 
 def test_blocks_are_stretched_to_the_size_whatever_they_are_in(world):
     corner = (
-        "points 6 point[0] [10 10] point[1] [30 10] point[2] [30 20] point[3] [20 20] point[4] [20 30] "
-        "point[5] [10 30]"
+        "points 6 point[0] [10 10] point[1] [30 10] point[2] [30 20] point[3] [20 20] point[4] [20 30] point[5] [10 30]"
     )
     (thing,) = world(f"model( size [2 4 1] block( {corner} z [0 3] ) )").world.obstacles
     assert isinstance(thing.shape, Polygon)
@@ -426,9 +414,7 @@ def test_a_second_bitmap_is_filled(tmp_path: Path, world):
     ring = np.ones((20, 20), dtype=bool)
     ring[5:15, 5:15] = False
     floorplan(tmp_path, ring)
-    stage = world(
-        'model( bitmap "plan.png" )\nmodel( name "ring" bitmap "plan.png" size [1 1 1] pose [5 0 0 0] )'
-    )
+    stage = world('model( bitmap "plan.png" )\nmodel( name "ring" bitmap "plan.png" size [1 1 1] pose [5 0 0 0] )')
     (thing,) = stage.world.obstacles
     assert (thing.name, thing.shape, thing.pose[:2]) == ("ring", Box(1.0, 1.0), (5, 0))
     assert "1 hollow parts of ring are filled" in stage.notes[0]
@@ -455,9 +441,7 @@ def test_a_laser_looks_out_above_the_robot(world):
 
 
 def test_stage_3_lasers_and_rings_of_sonars(world):
-    stage = world(
-        "position( laser( range_max 5 fov 180 samples 181 ) )\nposition( ranger( sensor( )\nsensor( ) ) )"
-    )
+    stage = world("position( laser( range_max 5 fov 180 samples 181 ) )\nposition( ranger( sensor( )\nsensor( ) ) )")
     assert stage.robots[0].lasers[0].range_max == 5
     assert stage.robots[0].lasers[0].fov == pytest.approx(math.pi)
     sonar = stage.robots[1].lasers[0]
@@ -657,9 +641,7 @@ def test_no_name_of_a_file_breaks_more_than_its_world(tmp_path, name):
 def test_a_bitmap_of_too_many_pixels_is_refused_by_its_header(tmp_path):
     (tmp_path / "a.pgm").write_bytes(b"P5 100000 100000 255\n")
     (tmp_path / "a.world").write_text('model( bitmap "a.pgm" )', encoding="utf-8")
-    with pytest.raises(
-        StageError, match=r"a.world:1: the bitmap .*a.pgm cannot be read: it has too many pixels"
-    ):
+    with pytest.raises(StageError, match=r"a.world:1: the bitmap .*a.pgm cannot be read: it has too many pixels"):
         load(tmp_path / "a.world")
 
 
@@ -670,7 +652,5 @@ def test_robots_have_a_number_and_a_world_to_stand_in(tmp_path, monkeypatch):
     with pytest.raises(StageError, match=r"a.world:3: there are more than 2 robots"):
         load(path)
     Image.fromarray(np.pad(np.full((20, 20), 255, dtype=np.uint8), 1)).save(tmp_path / "plan.png")
-    path.write_text(
-        'model( size [10 10 1] bitmap "plan.png" )\nposition( pose [50 0 0 0] name "r" )', encoding="utf-8"
-    )
+    path.write_text('model( size [10 10 1] bitmap "plan.png" )\nposition( pose [50 0 0 0] name "r" )', encoding="utf-8")
     assert "a.world:2: r starts outside: (50, 0) is outside of the world 'a'" in load(path).notes[0]

@@ -68,9 +68,7 @@ def test_a_wrong_turn_makes_another_circle(robot):
     odometry.set_velocity((0.0, 0.0, 0.0), 6.0)
     v, w = 0.5 * 1.05, 0.3 * 1.1
     turned = w * 5
-    assert odometry.belief == pytest.approx(
-        (v / w * math.sin(turned), v / w * (1 - math.cos(turned)), turned)
-    )
+    assert odometry.belief == pytest.approx((v / w * math.sin(turned), v / w * (1 - math.cos(turned)), turned))
     odometry.advance(100.0)
     assert odometry.belief[2] == pytest.approx(turned)
 
@@ -96,9 +94,7 @@ def test_how_often_one_asks_does_not_matter(robot):
 def test_the_origin_of_the_odometry(robot):
     started = StageOdometry(robot('pose [1 2 0 90] localization "odom"'), Fixed())
     assert started.pose((1.0, 2.0, math.pi / 2)) == pytest.approx((0, 0, 0))
-    elsewhere = StageOdometry(
-        robot('pose [1 2 0 90] localization "odom" localization_origin [1 0 0 0]'), Fixed()
-    )
+    elsewhere = StageOdometry(robot('pose [1 2 0 90] localization "odom" localization_origin [1 0 0 0]'), Fixed())
     assert elsewhere.belief == pytest.approx((0, 2, math.pi / 2))
     gps = StageOdometry(robot("pose [1 2 0 90]"), Fixed())
     assert gps.pose((4.0, 5.0, 6.0)) == (4, 5, 6)

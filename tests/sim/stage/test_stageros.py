@@ -69,9 +69,7 @@ class Bench:
         message.linear.x, message.linear.y, message.angular.z = v, vy, w
         self.publishers[topic].publish(message)
 
-    def go(
-        self, seconds: float, v: float = 0.0, w: float = 0.0, vy: float = 0.0, topic: str = "cmd_vel"
-    ) -> None:
+    def go(self, seconds: float, v: float = 0.0, w: float = 0.0, vy: float = 0.0, topic: str = "cmd_vel") -> None:
         for _ in range(round(seconds * 10)):
             self.command(v, w, vy, topic)
             self.graph.run(0.1)
@@ -200,8 +198,7 @@ def test_a_world_that_is_paused_in_stages_window_runs_where_there_is_none(bench)
 def test_notes_come_once_with_their_number(bench):
     laser = "ranger( sensor( range [0 8] samples 9 fov 90 ) sensor( range [0 4] ) )"
     robots = "".join(
-        f"position( pose [{i} 0 0 0] acceleration_bounds [0 1 0 1 0 1 0 90] fiducial() {laser} )"
-        for i in range(20)
+        f"position( pose [{i} 0 0 0] acceleration_bounds [0 1 0 1 0 1 0 90] fiducial() {laser} )" for i in range(20)
     )
     odd = "define bot position( velocity [1 0 0 0] ) " + "".join(f"bot( pose [{i} 2 0 0] )" for i in range(3))
     notes = bench(f"{robots}\n{odd}").stage.file.notes
@@ -324,11 +321,7 @@ def test_crates_are_pushed_and_walls_hold(graph: Graph):
     assert abs(y) < 0.5
     ours.node.service_client("reset_positions", service_class("std_srvs/Empty"))()
     assert ours.stage.truth() == (-1.5, 0.0, 0.0)
-    assert next(each for each in ours.stage.engine.obstacles() if each.name == "crate_1").pose == (
-        0.5,
-        0.0,
-        0.0,
-    )
+    assert next(each for each in ours.stage.engine.obstacles() if each.name == "crate_1").pose == (0.5, 0.0, 0.0)
 
 
 # ---- lasers ----
@@ -416,9 +409,7 @@ def test_frames_of_several_robots_have_prefixes(bench):
     }
     assert ours.heard["/robot_1/odom"][0].header.frame_id == "robot_1/odom"
     assert ours.heard["/robot_1/base_scan"][0].header.frame_id == "robot_1/base_laser_link"
-    assert (
-        ours.heard["/robot_1/base_pose_ground_truth"][0].header.frame_id == "robot_1/base_pose_ground_truth"
-    )
+    assert ours.heard["/robot_1/base_pose_ground_truth"][0].header.frame_id == "robot_1/base_pose_ground_truth"
 
 
 # ---- cameras ----
@@ -426,9 +417,7 @@ def test_frames_of_several_robots_have_prefixes(bench):
 
 def test_a_camera_is_published_while_somebody_looks(bench):
     camera = "camera( resolution [40 20] fov [60 40] range [0.2 8] pose [0.2 0 0.2 0] )"
-    ours = bench(
-        f'position( size [0.4 0.4 0.3] {camera} )\nmodel( size [1 1 2] pose [3.2 0 0 0] color "blue" )'
-    )
+    ours = bench(f'position( size [0.4 0.4 0.3] {camera} )\nmodel( size [1 1 2] pose [3.2 0 0 0] color "blue" )')
     ours.listen("camera_info", "tf")
     ours.graph.run(0.35)
     assert ours.heard["camera_info"] == []
@@ -477,8 +466,7 @@ def test_robots_with_many_sensors(graph: Graph, capsys):
 
 def test_depth_in_millimetres(bench):
     ours = bench(
-        "position( camera( resolution [3 3] ) )\nmodel( size [1 9 3] pose [3.5 0 0 0] )",
-        is_depth_canonical=False,
+        "position( camera( resolution [3 3] ) )\nmodel( size [1 9 3] pose [3.5 0 0 0] )", is_depth_canonical=False
     )
     ours.listen("depth")
     ours.graph.run(0.15)
@@ -491,9 +479,7 @@ def test_depth_in_millimetres(bench):
 
 
 def test_dragging(bench):
-    ours = bench(
-        ROBOT % 'name "era"' + 'model( name "box" gripper_return 1 mass 2 size [0.3 0.3 0.3] pose [2 0 0 0] )'
-    )
+    ours = bench(ROBOT % 'name "era"' + 'model( name "box" gripper_return 1 mass 2 size [0.3 0.3 0.3] pose [2 0 0 0] )')
     ours.listen("odom")
     ours.go(0.5, v=0.5)
     ours.stage.drag("robot_0", (0.0, 3.0, 1.0))

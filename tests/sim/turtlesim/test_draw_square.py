@@ -10,10 +10,7 @@ from rosmini.sim.turtlesim.draw_square import Square
 
 def test_it_goes_ahead_stops_turns_and_stops() -> None:
     square = Square()
-    assert square.decide((1.0, 1.0, 0.0), 0.0, 0.0) == (
-        (1.0, 0.0),
-        ["New goal [3.000000 1.000000, 0.000000]"],
-    )
+    assert square.decide((1.0, 1.0, 0.0), 0.0, 0.0) == ((1.0, 0.0), ["New goal [3.000000 1.000000, 0.000000]"])
     assert square.decide((2.95, 1.0, 0.0), 1.0, 0.0) == ((0.0, 0.0), [])
     assert square.decide((2.97, 1.0, 0.0), 1.0, 0.0) == ((0.0, 0.0), [])
     command, log = square.decide((2.97, 1.0, 0.0), 0.0, 0.0)

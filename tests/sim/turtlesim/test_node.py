@@ -33,9 +33,7 @@ TOOLS = {
     "rossrv": rossrv.TOOL,
 }  # fmt: skip
 RECORDED = in_order("turtlesim")
-Twist, Pose, Color = (
-    message_class(kind) for kind in ("geometry_msgs/Twist", "turtlesim/Pose", "turtlesim/Color")
-)
+Twist, Pose, Color = (message_class(kind) for kind in ("geometry_msgs/Twist", "turtlesim/Pose", "turtlesim/Color"))
 
 
 def start(*arguments: str) -> tuple[Graph, TurtleSim]:
@@ -56,9 +54,7 @@ def call(sim: TurtleSim, service: str, kind: str, *fields: Any) -> Any:
     return caller.service_client(service, service_class(kind))(*fields)
 
 
-def drive(
-    sim: TurtleSim, linear: float = 0.0, angular: float = 0.0, *, y: float = 0.0, seconds: float = 2.0
-) -> None:
+def drive(sim: TurtleSim, linear: float = 0.0, angular: float = 0.0, *, y: float = 0.0, seconds: float = 2.0) -> None:
     graph = sim.node.graph
     driver = graph.node("driver", anonymous=True)
     publisher = driver.publisher("/turtle1/cmd_vel", Twist)
@@ -93,9 +89,7 @@ def comparable(text: str) -> list[str]:
     text = masked(re.sub(r"b'(.*)'$", r"\1", text, flags=re.MULTILINE))
     text = re.sub(r"(?<=/rosout )(.*) \d+ publishers?", r"\1", text)  # a tool in the process is one, too
     foreign = ("/rosdistro", "/rosversion", "/run_id", "/roslaunch/", " * /rosout_agg", "/rosout/")
-    return sorted(
-        line.rstrip() for line in text.splitlines() if line.strip() and not line.startswith(foreign)
-    )
+    return sorted(line.rstrip() for line in text.splitlines() if line.strip() and not line.startswith(foreign))
 
 
 def test_a_session_in_a_terminal_is_that_with_the_real_one(sim: TurtleSim) -> None:
@@ -160,9 +154,7 @@ def test_poses_come_at_62_5_hz_and_colours_with_them(sim: TurtleSim) -> None:
 def test_the_colour_sensor_sees_what_was_drawn(sim: TurtleSim) -> None:
     graph = sim.node.graph
     seen: list[tuple[int, int, int]] = []
-    graph.node("ear").subscriber(
-        "/turtle1/color_sensor", Color, lambda each: seen.append((each.r, each.g, each.b))
-    )
+    graph.node("ear").subscriber("/turtle1/color_sensor", Color, lambda each: seen.append((each.r, each.g, each.b)))
     call(sim, "/turtle1/set_pen", "turtlesim/SetPen", 255, 0, 0, 5, 0)
     drive(sim, 1.0)
     assert seen[-1] == (255, 0, 0)
@@ -192,11 +184,7 @@ def test_names_and_namespaces_are_those_of_the_node() -> None:
     graph, sim = start("__name:=sim", "__ns:=/left")
     with graph:
         assert sim.node.name == "/left/sim"
-        assert sim.node.get_param("/left/sim") == {
-            "background_r": 69,
-            "background_g": 86,
-            "background_b": 255,
-        }
+        assert sim.node.get_param("/left/sim") == {"background_r": 69, "background_g": 86, "background_b": 255}
         assert {"/left/spawn", "/left/turtle1/set_pen"} <= set(sim.node.services)
         assert {"/left/turtle1/pose", "/left/turtle1/color_sensor"} <= set(sim.node.publications)
 
@@ -245,9 +233,7 @@ def test_a_killed_turtle_leaves_nothing_but_its_drawing(sim: TurtleSim) -> None:
 numbers = st.floats(width=32)
 
 
-@given(
-    x=numbers, y=numbers, theta=numbers, kind=st.sampled_from(["spawn", "absolute", "relative", "command"])
-)
+@given(x=numbers, y=numbers, theta=numbers, kind=st.sampled_from(["spawn", "absolute", "relative", "command"]))
 def test_whatever_number_comes_the_simulation_goes_on(x: float, y: float, theta: float, kind: str) -> None:
     graph, sim = start()
     with graph:

@@ -16,9 +16,7 @@ from rosmini.sim.turtlesim import TurtleSim, window
 @pytest.mark.parametrize("version", ["", "2"])
 def test_the_second_turtle_comes_after_the_first(version: str) -> None:
     with Graph() as graph:
-        launch = roslaunch(
-            f"turtle_tf{version}", f"turtle_tf{version}_demo.launch", graph=graph, console={"stdin": ""}
-        )
+        launch = roslaunch(f"turtle_tf{version}", f"turtle_tf{version}_demo.launch", graph=graph, console={"stdin": ""})
         graph.run(3.0)
         sim = window("/sim", graph)
         assert list(sim.turtles) == ["turtle1", "turtle2"]

@@ -39,15 +39,11 @@ def test_it_comes_back_to_where_it_began(edges: int, radius: float, theta: float
         pose = (x + math.cos(turned) * v * STEP_S, y + math.sin(turned) * v * STEP_S, turned)
     assert len(corners) == edges
     assert pose[:2] == pytest.approx((0.0, 0.0), abs=1e-3 * radius + 1e-3)
-    assert math.dist(corners[0], corners[1]) == pytest.approx(
-        2 * radius * math.sin(math.pi / edges), abs=1e-3
-    )
+    assert math.dist(corners[0], corners[1]) == pytest.approx(2 * radius * math.sin(math.pi / edges), abs=1e-3)
     assert polygon.apothem == pytest.approx(radius * math.cos(math.pi / edges))
 
 
-@pytest.mark.parametrize(
-    ("edges", "radius"), [(2, 1.0), (-3, 1.0), (5, 0.0), (5, -1.0), (5, math.nan), (5, math.inf)]
-)
+@pytest.mark.parametrize(("edges", "radius"), [(2, 1.0), (-3, 1.0), (5, 0.0), (5, -1.0), (5, math.nan), (5, math.inf)])
 def test_what_is_no_polygon(edges: int, radius: float) -> None:
     with pytest.raises(TurtleError, match="three edges at least"):
         Polygon(edges, radius)

@@ -17,9 +17,7 @@ def drive(keys: object, seconds: float, *arguments: str) -> tuple[TurtleSim, str
     out = io.StringIO()
     with Graph() as graph:
         sim = rosrun("turtlesim", "turtlesim_node", graph=graph).instance()
-        teleop = rosrun(
-            "turtlesim", "turtle_teleop_key", *arguments, graph=graph, stdin=keys, stdout=out, prefix=""
-        )
+        teleop = rosrun("turtlesim", "turtle_teleop_key", *arguments, graph=graph, stdin=keys, stdout=out, prefix="")
         graph.run(seconds)
         return sim, out.getvalue(), teleop.poll()
 
@@ -30,9 +28,7 @@ def test_keys_at_their_times_and_q() -> None:
     assert (out, status) == (HEAD, 0)
     assert turtle.theta == pytest.approx(0.0, abs=1e-9)
     start = 5.544445
-    assert turtle.x == pytest.approx(
-        start + 2.016 * (1 - -0.4304), abs=0.01
-    )  # back along a heading of 115.5 deg
+    assert turtle.x == pytest.approx(start + 2.016 * (1 - -0.4304), abs=0.01)  # back along a heading of 115.5 deg
     assert turtle.y == pytest.approx(start - 2.016 * 0.9026, abs=0.01)
 
 

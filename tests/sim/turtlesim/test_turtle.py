@@ -15,9 +15,7 @@ from rosmini.sim.turtlesim.turtle import LIMIT, START, STEP_S, Turtle, TurtleErr
 anything = st.floats(allow_nan=True, allow_infinity=True)
 
 
-def run(
-    turtle: Turtle, updates: int, paper: Paper | None = None, start: int = 0
-) -> list[tuple[float, float]]:
+def run(turtle: Turtle, updates: int, paper: Paper | None = None, start: int = 0) -> list[tuple[float, float]]:
     """The bumps against walls in so many updates."""
     paper = paper or Paper()
     bumps = []
@@ -65,12 +63,7 @@ def test_sideways() -> None:
 
 
 def test_walls_on_all_sides() -> None:
-    for theta, x, y in (
-        (0.0, LIMIT, 5.0),
-        (math.pi / 2, 5.0, LIMIT),
-        (3.1415, 0.0, 5.0),
-        (-1.5707, 5.0, 0.0),
-    ):
+    for theta, x, y in ((0.0, LIMIT, 5.0), (math.pi / 2, 5.0, LIMIT), (3.1415, 0.0, 5.0), (-1.5707, 5.0, 0.0)):
         turtle = Turtle("t", 5.0, 5.0, theta)
         turtle.command(10.0, 0.0, 0.0)
         assert run(turtle, 60)

@@ -16,9 +16,7 @@ def test_the_one_that_runs_is_found_and_of_several_the_named_one() -> None:
         assert window(graph=graph) is window("turtlesim", graph) is first
         second = rosrun("turtlesim", "turtlesim_node", "__ns:=/left", graph=graph).instance()
         assert window("/left/turtlesim", graph) is second
-        with pytest.raises(
-            TurtleError, match="2 windows: say which one is meant, of /left/turtlesim, /turtlesim"
-        ):
+        with pytest.raises(TurtleError, match="2 windows: say which one is meant, of /left/turtlesim, /turtlesim"):
             window(graph=graph)
         with pytest.raises(TurtleError, match="no turtlesim is called /turtlesin: did you mean /turtlesim"):
             window("turtlesin", graph)

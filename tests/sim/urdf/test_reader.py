@@ -145,9 +145,7 @@ def robot(inside, name="r"):
 
 
 def joint(name, parent, child, kind="fixed", more=""):
-    return (
-        f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>{more}</joint>'
-    )
+    return f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>{more}</joint>'
 
 
 def body(inside):
@@ -306,9 +304,7 @@ def test_files_and_meshes(tmp_path):
     package = tmp_path / "my_robot"
     (package / "meshes").mkdir(parents=True)
     (package / "meshes" / "a.stl").write_bytes(b"")
-    (package / "package.xml").write_text(
-        "<package format='2'><name>my_robot</name></package>", encoding="utf-8"
-    )
+    (package / "package.xml").write_text("<package format='2'><name>my_robot</name></package>", encoding="utf-8")
     path = package / "r.urdf"
     path.write_text(
         body(
@@ -323,9 +319,7 @@ def test_files_and_meshes(tmp_path):
         visuals = load(source, packages=index).link("a").visuals
         assert [each.geometry.path for each in visuals] == [stl, stl]
         assert visuals[0].geometry.scale == (2, 2, 2)
-    assert load(path, meshes=False).link("a").visuals[0].geometry == Mesh(
-        "package://my_robot/meshes/a.stl", (2, 2, 2)
-    )
+    assert load(path, meshes=False).link("a").visuals[0].geometry == Mesh("package://my_robot/meshes/a.stl", (2, 2, 2))
     with pytest.raises(UrdfError, match=r"none.urdf: cannot be read"):
         load(tmp_path / "none.urdf")
     with pytest.raises(UrdfError, match="did you mean my_robot"):

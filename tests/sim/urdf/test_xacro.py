@@ -15,9 +15,7 @@ HEAD = '<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">'
 def index(tmp_path):
     package = tmp_path / "my_robot"
     (package / "urdf").mkdir(parents=True)
-    (package / "package.xml").write_text(
-        "<package format='2'><name>my_robot</name></package>", encoding="utf-8"
-    )
+    (package / "package.xml").write_text("<package format='2'><name>my_robot</name></package>", encoding="utf-8")
     (package / "urdf" / "wheel.xacro").write_text(
         HEAD
         + """
@@ -201,9 +199,7 @@ def test_includes_that_fan_out_or_go_in_circles_end(index, monkeypatch):
     with pytest.raises(UrdfError, match="too many steps"):
         expand(index.path("my_robot") / "urdf" / "f0.xacro", packages=index)
     write(index, "<xacro:include filename='b.xacro'/>", "a.xacro")
-    with pytest.raises(
-        UrdfError, match=r"without end: (a.xacro -> b.xacro -> a.xacro|b.xacro -> a.xacro -> b.xacro)"
-    ):
+    with pytest.raises(UrdfError, match=r"without end: (a.xacro -> b.xacro -> a.xacro|b.xacro -> a.xacro -> b.xacro)"):
         expand(write(index, "<xacro:include filename='a.xacro'/>", "b.xacro"), packages=index)
 
 
@@ -214,8 +210,7 @@ def test_a_quote_without_its_partner_in_the_parameters_of_a_macro_does_not_hang(
 
 def test_who_trusts_a_file_lets_it_do_all(index):
     path = write(
-        index,
-        "<link name='${xacro.load_yaml.__name__}'/>".replace("xacro.load_yaml.__name__", "python.type(1)"),
+        index, "<link name='${xacro.load_yaml.__name__}'/>".replace("xacro.load_yaml.__name__", "python.type(1)")
     )
     assert "int" in expand(path, packages=index, confined=False)
     with pytest.raises(UrdfError):
@@ -227,8 +222,7 @@ def test_who_trusts_a_file_lets_it_do_all(index):
 
 def test_what_public_descriptions_write_is_allowed(index):
     (index.path("my_robot") / "urdf" / "limits.yaml").write_text(
-        "joints: {arm: {lower: !degrees 90, upper: !radians 2*pi, size: !inches 10, names: [a, b]}}\n",
-        encoding="utf-8",
+        "joints: {arm: {lower: !degrees 90, upper: !radians 2*pi, size: !inches 10, names: [a, b]}}\n", encoding="utf-8"
     )
     text = """
 <xacro:property name="config" value="${xacro.load_yaml('$(find my_robot)/urdf/limits.yaml')}"/>
@@ -265,8 +259,7 @@ def test_pypis_xacro_finds_packages_by_itself(index, monkeypatch):
 
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(index.paths[0]))
     path = write(
-        index,
-        "<xacro:include filename='$(find my_robot)/urdf/wheel.xacro'/><xacro:wheel name='w' radius='1'/>",
+        index, "<xacro:include filename='$(find my_robot)/urdf/wheel.xacro'/><xacro:wheel name='w' radius='1'/>"
     )
     assert 'name="w_link"' in xacro.process_file(str(path)).toxml()
     with pytest.raises(PackageNotFoundError, match=r"there is no package 'my_robt'; did you mean my_robot\?"):

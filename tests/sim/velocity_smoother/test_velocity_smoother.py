@@ -48,9 +48,7 @@ def test_speeds_are_cut():
     assert limited((-3.0, 4.0), Limits()) == (-1.0, 4.0)
 
 
-def run(
-    smoother: VelocitySmoother, commands, seconds: float, begin: float = 10.0
-) -> list[tuple[float, float] | None]:
+def run(smoother: VelocitySmoother, commands, seconds: float, begin: float = 10.0) -> list[tuple[float, float] | None]:
     """What comes out if `commands(t)` comes in at 10 Hz."""
     told = []
     for i in range(round(seconds / smoother.period)):
@@ -111,9 +109,7 @@ class Ears:
         self.smoother = VelocitySmootherNode(node)
         self.node = graph.node("driver")
         self.heard: list[float] = []
-        self.node.subscriber(
-            "velocity_smoother/smooth_cmd_vel", Twist, lambda m: self.heard.append(m.linear.x)
-        )
+        self.node.subscriber("velocity_smoother/smooth_cmd_vel", Twist, lambda m: self.heard.append(m.linear.x))
         self.publisher = self.node.publisher("velocity_smoother/raw_cmd_vel", Twist, queue_size=1)
         self.graph = graph
         graph.run(0.1)

@@ -51,9 +51,7 @@ def test_a_model_is_shown_moved_and_deleted(bench: Start) -> None:
     there = bench()
     there.spawn(box(), "crate", 1.0, 2.0)
     gz = Gz(there.graph)
-    assert lines(gz, "model", "-m", "crate", "-p") == [
-        "1.000000 2.000000 0.000000 0.000000 0.000000 0.000000"
-    ]
+    assert lines(gz, "model", "-m", "crate", "-p") == ["1.000000 2.000000 0.000000 0.000000 0.000000 0.000000"]
     gz.run("model", "-m", "crate", "-x", 3, "-Y", 0.5)
     assert there.pose("crate") == pytest.approx((3.0, 0.0, 0.5))  # as in Gazebo: the rest is 0
     gz.run("model", "-m", "crate", "-d")

@@ -24,10 +24,7 @@ def test_a_file_is_run_on_paper(tmp_path: Path) -> None:
     TOOL.run("--paper", str(file), say=said.append)
     assert said == ["1", "2"]
     result = TOOL.run("--paper", "-o", str(tmp_path / "it.svg"), str(file), say=said.append)
-    assert (
-        str(result)
-        == f"Replay of Logo: 1 line, 10 steps\nturtle1 at [0 10], heading 0\n\n{tmp_path / 'it.svg'}"
-    )
+    assert str(result) == f"Replay of Logo: 1 line, 10 steps\nturtle1 at [0 10], heading 0\n\n{tmp_path / 'it.svg'}"
     assert (tmp_path / "it.svg").read_text(encoding="utf-8").startswith("<svg")
 
 
@@ -63,15 +60,12 @@ def test_wrong_words(tmp_path: Path) -> None:
 
 def test_lines_are_typed(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     typed = (
-        "fd 10\nprint pos\nfrwd\nto twice :n\noutput 2 * :n\nend\nprint twice 4\n"
-        "repeat 2 [\nprint 1\n]\nbye\nprint 9\n"
+        "fd 10\nprint pos\nfrwd\nto twice :n\noutput 2 * :n\nend\nprint twice 4\nrepeat 2 [\nprint 1\n]\nbye\nprint 9\n"
     )
     monkeypatch.setattr("sys.stdin", io.StringIO(typed))
     assert Terminal(TOOL).main(Namespace(words=["--paper"])) == 0
     written = capsys.readouterr().out
-    assert written == (
-        "? ? 0 10\n? line 1: I don't know how to frwd; did you mean forward?\n? > > ? 8\n? > > 1\n1\n? "
-    )
+    assert written == ("? ? 0 10\n? line 1: I don't know how to frwd; did you mean forward?\n? > > ? 8\n? > > 1\n1\n? ")
 
 
 def test_ctrl_c_ends_the_program_and_not_the_conversation(

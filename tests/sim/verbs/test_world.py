@@ -58,8 +58,7 @@ def test_check_knows_stage_worlds_and_robots(capsys, tmp_path):
 
 def test_the_verdict_names_what_is_left_out(capsys, tmp_path):
     (tmp_path / "s.world").write_text(
-        "model( fiducial( ) fiducial( ) )\nposition( camera( range [0 0] ) )\nmodel( siez [1 1 1] )",
-        encoding="utf-8",
+        "model( fiducial( ) fiducial( ) )\nposition( camera( range [0 0] ) )\nmodel( siez [1 1 1] )", encoding="utf-8"
     )
     (tmp_path / "w.world").write_text(
         "<sdf version='1.7'><world name='w'><include><uri>model://nowhere_to_be_found</uri></include></world></sdf>",
@@ -68,10 +67,7 @@ def test_the_verdict_names_what_is_left_out(capsys, tmp_path):
     status, out, _ = run(capsys, "check", tmp_path / "s.world", tmp_path / "w.world")
     assert status == 0
     lines = [line for line in out.splitlines() if not line.startswith(" ")]
-    assert (
-        "read without a fiducial (2 times), a camera that has no picture and the property siez: Stage"
-        in lines[0]
-    )
+    assert "read without a fiducial (2 times), a camera that has no picture and the property siez: Stage" in lines[0]
     assert "w.world: read without a model: SDF 1.7" in lines[1]
 
 
@@ -83,9 +79,7 @@ def test_check_takes_a_part_of_a_robot_for_what_it_is(capsys, tmp_path):
     (tmp_path / "whole.xacro").write_text(
         f"<robot name='r' {spaces}>{macro}<xacro:leg n='1'/></robot>", encoding="utf-8"
     )
-    status, out, err = run(
-        capsys, "check", *(tmp_path / f"{name}.xacro" for name in ("part", "wrong", "whole"))
-    )
+    status, out, err = run(capsys, "check", *(tmp_path / f"{name}.xacro" for name in ("part", "wrong", "whole")))
     assert status == 1
     assert "part.xacro: sound: xacro: a part of a robot, with 1 macro" in out
     assert "whole.xacro: sound: URDF: the robot 'r': 1 link" in out

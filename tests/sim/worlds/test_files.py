@@ -86,12 +86,7 @@ def test_the_room_can_be_driven_as_its_docstring_says():
     for distance in np.arange(0.0, 3.0, 0.05):
         assert room.blocked((distance, 0.0, 0.0), BURGER) is None
     for side in np.arange(0.0, 1.01, 0.05):
-        for pose in (
-            (side, 0, 0),
-            (1, side, math.pi / 2),
-            (1 - side, 1, math.pi),
-            (0, 1 - side, -math.pi / 2),
-        ):
+        for pose in ((side, 0, 0), (1, side, math.pi / 2), (1 - side, 1, math.pi), (0, 1 - side, -math.pi / 2)):
             assert room.blocked(pose, 0.12) is None
     loop = [(2.0, 0.0), (2.9, 0.3), (2.9, 2.4), (2.0, 2.2), (2.07, 1.2), (2.0, 0.0)]
     for (xa, ya), (xb, yb) in pairwise(loop):
@@ -131,19 +126,14 @@ def boundary(thing, count=60):
     """Points along the outline of a thing."""
     if isinstance(thing.shape, Cylinder):
         angles = np.linspace(0, math.tau, 4 * count, endpoint=False)
-        return np.array(thing.pose[:2]) + thing.shape.radius * np.stack(
-            [np.cos(angles), np.sin(angles)], axis=1
-        )
+        return np.array(thing.pose[:2]) + thing.shape.radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
     sides, t = edges(thing.outline()), np.linspace(0, 1, count)[:, None, None]
     return (sides[:, :2] * (1 - t) + sides[:, 2:] * t).reshape(-1, 2)
 
 
 def test_tracing_the_floor_gives_back_the_walls_it_was_drawn_from():
     drawn = np.vstack(
-        [
-            edges(boundary(t, 30)) if isinstance(t.shape, Cylinder) else edges(t.outline())
-            for t in floor.things()
-        ]
+        [edges(boundary(t, 30)) if isinstance(t.shape, Cylinder) else edges(t.outline()) for t in floor.things()]
     )
     walls = world("floor").walls
     t = np.linspace(0, 1, 25)[:, None, None]
@@ -222,16 +212,12 @@ def test_a_real_map_becomes_a_world():
     if not path.is_file():
         pytest.skip(f"{path} is not there")
     depot = world(path)
-    cells = sum(
-        int(np.abs(np.roll(loop, -1, axis=0) - loop).sum()) for loop in edge_loops(load_map(path).occupied)
-    )
+    cells = sum(int(np.abs(np.roll(loop, -1, axis=0) - loop).sum()) for loop in edge_loops(load_map(path).occupied))
     assert len(depot.walls) < cells / 3
     assert depot.bounds == pytest.approx((-7.14, -7.83, 23.06, 7.52), abs=0.3)
     assert depot.blocked(depot.starts[0], BURGER) is None
     for x, y in ((0.0, 2.0), (10.0, -3.5), (20.0, 6.0)):
-        assert np.isfinite(
-            raycast(depot.segments, depot.discs, x, y, 0.0, 0.01, 629, 60.0, backend="numpy")
-        ).all()
+        assert np.isfinite(raycast(depot.segments, depot.discs, x, y, 0.0, 0.01, 629, 60.0, backend="numpy")).all()
 
 
 def test_one_warning_lists_all_that_is_wrong_with_a_world(tmp_path):

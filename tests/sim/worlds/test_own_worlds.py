@@ -37,10 +37,7 @@ def grown(occupied, cells):
         reach = int(math.sqrt(cells * cells - up * up))
         for along in range(-reach, reach + 1):
             rows_to, rows_from = slice(max(up, 0), rows + min(up, 0)), slice(max(-up, 0), rows + min(-up, 0))
-            to, start = (
-                slice(max(along, 0), columns + min(along, 0)),
-                slice(max(-along, 0), columns + min(-along, 0)),
-            )
+            to, start = (slice(max(along, 0), columns + min(along, 0)), slice(max(-along, 0), columns + min(-along, 0)))
             found[rows_to, to] |= occupied[rows_from, start]
     return found
 
@@ -64,8 +61,7 @@ def test_a_robot_can_drive_from_every_start_to_every_other(name):
     grid = to_map(here, resolution)
     free = ~grown(grid.occupied, round(WIDTH / 2 / resolution))
     cells = [
-        (int((y - grid.origin[1]) / resolution), int((x - grid.origin[0]) / resolution))
-        for x, y, _ in here.starts
+        (int((y - grid.origin[1]) / resolution), int((x - grid.origin[0]) / resolution)) for x, y, _ in here.starts
     ]
     seen = reachable(free, cells[0])
     assert all(seen[cell] for cell in cells)
@@ -82,9 +78,7 @@ def test_what_a_file_is_hangs_on_what_stands_in_it(tmp_path):
     )
     assert kind_of(tmp_path / "b.world") == "stage"
     (tmp_path / "c").write_text(
-        source("floor")
-        .read_text(encoding="utf-8")
-        .replace("floor.png", str(source("floor").with_name("floor.png"))),
+        source("floor").read_text(encoding="utf-8").replace("floor.png", str(source("floor").with_name("floor.png"))),
         encoding="utf-8",
     )
     assert kind_of(tmp_path / "c") == "map"
@@ -124,11 +118,7 @@ def test_fixed_things_do_not_stand_in_one_another(name):
     ]
     for i, (one, shape, pose, bottom, top) in enumerate(parts):
         for other, other_shape, other_pose, other_bottom, other_top in parts[:i]:
-            if (
-                one.partition("::")[0] == other.partition("::")[0]
-                or bottom >= other_top
-                or other_bottom >= top
-            ):
+            if one.partition("::")[0] == other.partition("::")[0] or bottom >= other_top or other_bottom >= top:
                 continue
             assert not overlap(shape, pose, other_shape, other_pose), (one, other)
 
@@ -140,11 +130,7 @@ def overlap(shape, pose, other, place):
 
 
 def outline(shape, pose):
-    return (
-        Outline(np.array([pose[:2]]), shape.radius)
-        if isinstance(shape, ROUND)
-        else Outline(outline_at(shape, pose))
-    )
+    return Outline(np.array([pose[:2]]), shape.radius) if isinstance(shape, ROUND) else Outline(outline_at(shape, pose))
 
 
 def test_what_moves_in_the_office_meets_nothing_that_stands():

@@ -54,14 +54,10 @@ def regions(free):
 )
 def test_a_robot_gets_from_every_start_to_everywhere(seed, size, rooms, obstacles, walkers):
     size = (round(size[0], 2), round(size[1], 2))
-    world = random_world(
-        seed, size=size, rooms=rooms, obstacles=obstacles, movable=1, walkers=walkers, starts=2
-    )
+    world = random_world(seed, size=size, rooms=rooms, obstacles=obstacles, movable=1, walkers=walkers, starts=2)
     for start in world.starts:
         assert world.blocked(start, 0.35) is None
-    grid = to_map(
-        World("w", tuple(o for o in world.obstacles if o.motion is None), starts=world.starts), CELL
-    )
+    grid = to_map(World("w", tuple(o for o in world.obstacles if o.motion is None), starts=world.starts), CELL)
     rows, columns = np.indices(grid.occupied.shape)
     room = (np.abs((columns + 0.5) * CELL + grid.origin[0]) < size[0] / 2) & (
         np.abs((rows + 0.5) * CELL + grid.origin[1]) < size[1] / 2
@@ -117,9 +113,7 @@ def test_what_makes_no_sense_is_refused(arguments, part):
 
 def test_a_seed_may_come_from_numpy():
     assert random_world(np.int64(4)).walls.tolist() == random_world(4).walls.tolist()
-    assert [o.pose for o in random_world(np.int64(4)).obstacles] == [
-        o.pose for o in random_world(4).obstacles
-    ]
+    assert [o.pose for o in random_world(np.int64(4)).obstacles] == [o.pose for o in random_world(4).obstacles]
 
 
 @pytest.mark.parametrize("what", ["rooms", "obstacles", "movable", "walkers", "starts"])

@@ -74,9 +74,7 @@ def test_no_edge_runs_over_a_strange_vertex_or_label(graph):
                 assert not any(inside(p, rect) for p in points), f"{edge} runs over {name}"
         for other, route in layout.edges.items():
             if route.label and other != edge.name and edge.source != edge.target:
-                assert not any(inside(p, route.label) for p in points), (
-                    f"{edge} runs over the label of {other}"
-                )
+                assert not any(inside(p, route.label) for p in points), f"{edge} runs over the label of {other}"
 
 
 @given(graphs())
@@ -103,12 +101,7 @@ def test_groups_hold_their_members_and_nothing_else(graph):
         for vertex in vertices:
             rect = layout.vertices[vertex.name]
             if vertex.groups[: len(path)] == path:
-                assert (
-                    box.x <= rect.x
-                    and box.y <= rect.y
-                    and rect.right <= box.right
-                    and rect.bottom <= box.bottom
-                )
+                assert box.x <= rect.x and box.y <= rect.y and rect.right <= box.right and rect.bottom <= box.bottom
             else:
                 assert not box.overlaps(rect, 0.01), f"{vertex.name} lies in {path}"
         for other, another in layout.groups.items():
@@ -137,9 +130,7 @@ def test_everything_is_within_the_page(graph, direction):
         assert all(inside(point, page, 0) for point in curve(route.points))
 
 
-arcs_of_six = st.lists(
-    st.tuples(st.integers(0, 5), st.integers(0, 5)).filter(lambda a: a[0] != a[1]), max_size=14
-)
+arcs_of_six = st.lists(st.tuples(st.integers(0, 5), st.integers(0, 5)).filter(lambda a: a[0] != a[1]), max_size=14)
 
 
 @given(arcs_of_six)
@@ -190,9 +181,7 @@ def least_total(arcs, lengths) -> int:
         if vertex == 6:
             best = min(best, sum(layer_of[h] - layer_of[t] for t, h in arcs))
             return
-        lowest = max(
-            (layer_of[t] + n for (t, h), n in zip(arcs, lengths, strict=True) if h == vertex), default=0
-        )
+        lowest = max((layer_of[t] + n for (t, h), n in zip(arcs, lengths, strict=True) if h == vertex), default=0)
         for layer in range(lowest, min(lowest + 4, limit + 1)):
             place(vertex + 1, [*layer_of, layer])
 
@@ -209,9 +198,7 @@ def test_names_must_be_unique_and_edges_have_ends():
 
 
 def test_a_chain_is_a_straight_line():
-    layout = layered(
-        [Vertex(n, 80, 30) for n in "abc"], [Edge("1", "a", "b", 40, 14), Edge("2", "b", "c", 40, 14)]
-    )
+    layout = layered([Vertex(n, 80, 30) for n in "abc"], [Edge("1", "a", "b", 40, 14), Edge("2", "b", "c", 40, 14)])
     assert len({rect.centre[1] for rect in layout.vertices.values()}) == 1
     assert layout.layers == {"a": 0, "b": 2, "c": 4}
 

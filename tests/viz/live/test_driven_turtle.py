@@ -25,9 +25,7 @@ def sim(graph):
 def heard(graph, sim):
     """What turtle1 is sent."""
     found = []
-    graph.node("listener").subscriber(
-        "/turtle1/cmd_vel", Twist, lambda t: found.append((t.linear.x, t.angular.z))
-    )
+    graph.node("listener").subscriber("/turtle1/cmd_vel", Twist, lambda t: found.append((t.linear.x, t.angular.z)))
     return found
 
 
@@ -104,11 +102,7 @@ def test_a_border_blocks(sim, graph):
 def test_its_page_knows_the_window_and_is_sent_what_is_new(sim, graph):
     pad = sim.pad()
     data = json.loads(json.dumps(pad_data(pad)))
-    assert (data["scene"], data["turtle"]["name"], data["turtle"]["pose_topic"]) == (
-        None,
-        "turtle1",
-        "/turtle1/pose",
-    )
+    assert (data["scene"], data["turtle"]["name"], data["turtle"]["pose_topic"]) == (None, "turtle1", "/turtle1/pose")
     assert [table["name"] for table in data["maps"]][-1] == "turtle_teleop_key"
     page = Page(pad)
     page.say("key", key="ArrowUp")

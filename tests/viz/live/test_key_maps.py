@@ -52,11 +52,7 @@ def test_the_steps_and_speeds_are_those_of_the_programs():
     assert [turtle.moves[turtle.named(key)] for key in ("up", "down", "left", "right")] == [
         (1, 0, 0, 0), (-1, 0, 0, 0), (0, 0, 0, 1), (0, 0, 0, -1),
     ]  # fmt: skip
-    assert (burger.moves["a"], twist.moves["m"], twist.factors["w"]) == (
-        (0, 0, 0, 1),
-        (-1, 0, 0, -1),
-        (1.1, 1),
-    )
+    assert (burger.moves["a"], twist.moves["m"], twist.factors["w"]) == ((0, 0, 0, 1), (-1, 0, 0, -1), (1.1, 1))
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -48,11 +48,7 @@ class Page:
             self.graph.run(0.01)
 
     def frames(self) -> list[tuple[dict, np.ndarray]]:
-        return [
-            (content, np.frombuffer(buffers[0]))
-            for content, buffers in self.sent
-            if content["type"] == "frame"
-        ]
+        return [(content, np.frombuffer(buffers[0])) for content, buffers in self.sent if content["type"] == "frame"]
 
     def kinds(self) -> set[str]:
         return {content["type"] for content, _ in self.sent}
@@ -92,9 +88,7 @@ def test_a_graph_that_cannot_be_live_says_why(pad, page):
 
     pad.graph.live = refuse
     page.say("key", key="w")
-    assert [content for content, _ in page.sent] == [
-        {"type": "refused", "text": "a live graph needs an event loop"}
-    ]
+    assert [content for content, _ in page.sent] == [{"type": "refused", "text": "a live graph needs an event loop"}]
     page.run(0.1, beats=False)
     assert pad.sent == 0
 
@@ -285,11 +279,7 @@ def test_the_messages_of_a_pad_without_a_simulator_are_shown(graph):
     page.run(0.25)
     _, numbers = page.frames()[-1]
     assert np.isnan(numbers[4:]).all()
-    assert [m for content, _ in page.frames() for m in content["messages"]] == [
-        [0.005, 0],
-        [0.01, 0],
-        [0.01, 0],
-    ]
+    assert [m for content, _ in page.frames() for m in content["messages"]] == [[0.005, 0], [0.01, 0], [0.01, 0]]
 
 
 def test_without_anywidget_the_twin_works_and_the_page_says_what_to_install(graph, monkeypatch):

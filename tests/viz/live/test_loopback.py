@@ -51,9 +51,7 @@ def ask(server, path="", method="GET", body=None, token=None, **headers):
 
 
 def say(server, content, **headers):
-    return ask(server, "say", "POST", json.dumps(content), **{"Content_Type": "application/json", **headers})[
-        0
-    ]
+    return ask(server, "say", "POST", json.dumps(content), **{"Content_Type": "application/json", **headers})[0]
 
 
 def test_the_page_its_module_and_its_data_are_served(served):

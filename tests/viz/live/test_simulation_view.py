@@ -304,9 +304,7 @@ def test_a_drag_of_the_page_is_answered(stage):
     page = Page(stage.view())
     page.say("drag", name="robot_0", to=[-1.0, 0.5, 0.1])
     page.graph.run(0.01)
-    assert page.of("put") == [
-        ({"type": "put", "name": "robot_0", "text": "robot_0 is at (-1.00, 0.50, 5.7 deg)"}, [])
-    ]
+    assert page.of("put") == [({"type": "put", "name": "robot_0", "text": "robot_0 is at (-1.00, 0.50, 5.7 deg)"}, [])]
     assert stage.truth() == (-1.0, 0.5, 0.1)
     poses = np.frombuffer(page.of("frame")[-1][1][0]).reshape(-1, 3)
     assert poses[0].tolist() == [-1.0, 0.5, 0.1]

@@ -45,9 +45,7 @@ SMALL = World(
     (
         Obstacle("crate", Box(0.4, 0.2), (1.0, 0.5, math.pi / 2), 0.3, "blue"),
         Obstacle("pillar", Cylinder(0.15), (-1.0, 0.5, 0.0), 0.6, "green"),
-        Obstacle(
-            "corner", Polygon(((0, 0), (1, 0), (1, 0.2), (0.2, 0.2), (0.2, 1), (0, 1))), (0, 1, 0), 0.25
-        ),
+        Obstacle("corner", Polygon(((0, 0), (1, 0), (1, 0.2), (0.2, 0.2), (0.2, 1), (0, 1))), (0, 1, 0), 0.25),
     ),
     walls=np.array([(-2.0, -1.0, 2.0, -1.0)]),
     wall_height=0.4,
@@ -64,11 +62,7 @@ def objects(view):
 
 
 def transforms(view):
-    return {
-        c["path"]: np.array(c["matrix"]).reshape(4, 4).T
-        for c in commands(view)
-        if c["type"] == "set_transform"
-    }
+    return {c["path"]: np.array(c["matrix"]).reshape(4, 4).T for c in commands(view) if c["type"] == "set_transform"}
 
 
 def vertices(thing):
@@ -173,10 +167,7 @@ def test_a_scan_is_where_the_laser_saw_it():
     # The laser sits 3.2 cm behind the axle, and the robot looks along y.
     assert ahead == pytest.approx([0.5, -0.25 - 0.032 + 1.0, 0.182], abs=1e-4)
     assert left == pytest.approx([0.5 - 2.0, -0.25 - 0.032, 0.182], abs=1e-4)
-    assert (
-        view.text
-        == "3D: burger at (0.50, -0.25, 90.0 deg); 2 of 360 beams hit\nsmall with 1 wall, 3 obstacles"
-    )
+    assert view.text == "3D: burger at (0.50, -0.25, 90.0 deg); 2 of 360 beams hit\nsmall with 1 wall, 3 obstacles"
     moved = robot_3d(SMALL, BURGER, (0.5, 0.75, math.pi / 2), ranges, scan_from=POSE)
     assert moved.scene.scans[0] == pytest.approx(view.scene.scans[0], abs=1e-4)
     # of a sweep, each beam from its own pose
@@ -192,9 +183,7 @@ def test_a_scan_is_where_the_laser_saw_it():
 def test_obstacles_of_names_that_look_alike_in_a_path_are_both_there():
     twins = World("twins", (Obstacle("a/b", Cylinder(0.1)), Obstacle("a b", Cylinder(0.2), (1, 0, 0))))
     radii = [
-        thing["geometries"][0]["radiusTop"]
-        for path, thing in objects(world_3d(twins)).items()
-        if "obstacles" in path
+        thing["geometries"][0]["radiusTop"] for path, thing in objects(world_3d(twins)).items() if "obstacles" in path
     ]
     assert radii == pytest.approx([0.1, 0.2])
 
@@ -281,15 +270,9 @@ def test_a_box_is_drawn_where_the_camera_sees_it():
 def test_what_is_near_covers_what_is_far():
     scene = Scene3D(Camera((0.0, 0.0, 0.0), 8.0, azimuth=-90.0, elevation=30.0))
     # By the distance of its middle, the long wall is nearer than the box at its end, and behind the one before it.
-    for colour, x, y, length in (
-        ("green", 4.5, 2.5, 1.0),
-        ("blue", 0.0, 1.1, 10.0),
-        ("orange", 0.0, 0.0, 1.0),
-    ):
+    for colour, x, y, length in (("green", 4.5, 2.5, 1.0), ("blue", 0.0, 1.1, 10.0), ("orange", 0.0, 0.0, 1.0)):
         scene.add_obstacle(Obstacle(colour, Box(length, 0.5), (x, y, 0.0), height=1.0, colour=colour))
-    fills = [
-        p.get("fill") for p in paths(draw(scene, title="t", alt="a")) if p.get("fill", "").startswith("#")
-    ]
+    fills = [p.get("fill") for p in paths(draw(scene, title="t", alt="a")) if p.get("fill", "").startswith("#")]
     hues = [max(range(3), key=lambda i: int(fill[2 * i + 1 : 2 * i + 3], 16)) for fill in fills]
     assert sorted(hues, key=[1, 2, 0].index) == hues
 
@@ -300,18 +283,14 @@ def test_points_of_a_laser_are_drawn_where_nothing_hides_them():
     # Before the wall, on it, within its noise, behind it, beside it, and behind the camera.
     ys = [(0.5, -1.0), (0.5, -0.1), (0.5, -0.07), (0.5, 1.0), (-0.5, 1.0), (0.5, -9.0)]
     scene.scans.append(np.array([(x, y, 0.5) for x, y in ys]))
-    drawn = "".join(
-        p.get("d") for p in paths(draw(scene, title="t", alt="a")) if p.get("stroke-width") == "3"
-    )
+    drawn = "".join(p.get("d") for p in paths(draw(scene, title="t", alt="a")) if p.get("stroke-width") == "3")
     assert drawn.count("h0") == 4
 
 
 def test_a_wall_behind_the_camera_is_cut_not_mirrored():
     scene = Scene3D(Camera((0.0, 0.0, 0.0), 1.0, azimuth=0.0, elevation=10.0))
     scene.add_world(World("behind", walls=np.array([(3.0, -1.0, 3.0, 1.0), (-3.0, 0.2, 3.0, 0.2)])))
-    coordinates = [
-        float(n) for p in paths(draw(scene, title="t", alt="a")) for n in re.findall(r"[-\d.]+", p.get("d"))
-    ]
+    coordinates = [float(n) for p in paths(draw(scene, title="t", alt="a")) for n in re.findall(r"[-\d.]+", p.get("d"))]
     assert np.isfinite(coordinates).all()
 
 
@@ -339,9 +318,7 @@ def test_a_replay_moves_the_robot_as_it_moved_and_turns_its_wheels():
         times, values = tracks[path, name]
         assert len(times) < 60
         assert np.interp(recording.times, times, values[:, 0]) == pytest.approx(column, abs=0.011)
-    left, right = (
-        tracks[f"/meshcat/robots/robot/wheel_{side}", "rotation[y]"][1][-1, 0] for side in ("left", "right")
-    )
+    left, right = (tracks[f"/meshcat/robots/robot/wheel_{side}", "rotation[y]"][1][-1, 0] for side in ("left", "right"))
     # 12 s at 0.2 m/s, and 3 rad of turning with wheels 16 cm apart of 33 mm radius.
     assert (left + right) / 2 * 0.033 == pytest.approx(2.4, abs=0.005)
     assert (right - left) * 0.033 / 0.160 == pytest.approx(3.0, abs=0.005)
@@ -555,9 +532,9 @@ def test_a_run_of_layers_has_its_robots_and_what_lies_on_the_ground():
     bodies = (Body("base_link", times, along), Body("/odom", times, along))
     plan = Shapes("/plan", np.array([1.0]), ((Shape("line", along[:, :2]),),))
     view = replay_3d(Run("drive.bag", 0.0, 4.0, bodies, (plan,)), robot="burger")
-    assert [
-        name for name in view.scene.nodes if name.startswith(("robots", "others")) and name.count("/") == 1
-    ] == ["robots/robot"], "what a topic says of the robot is no robot of its own"
+    assert [name for name in view.scene.nodes if name.startswith(("robots", "others")) and name.count("/") == 1] == [
+        "robots/robot"
+    ], "what a topic says of the robot is no robot of its own"
     tracks = keys(view)
     assert tracks["/meshcat/robots/robot", "position"][1][-1, 0] == pytest.approx(1.0)
     pasted = view.data["layered"]

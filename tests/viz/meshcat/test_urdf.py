@@ -46,10 +46,9 @@ def test_any_robot():
     assert {part.node.rpartition("/")[2] for part in view.scene.surfaces} == {"foot", "head"}
     assert {part.colour for part in view.scene.surfaces} == {"#ff0000", "#98a3ad", "#ffff00"}
     low = min(
-        (
-            part.surface.vertices @ view.scene.transform(part.node)[:3, :3].T
-            + view.scene.transform(part.node)[:3, 3]
-        )[:, 2].min()
+        (part.surface.vertices @ view.scene.transform(part.node)[:3, :3].T + view.scene.transform(part.node)[:3, 3])[
+            :, 2
+        ].min()
         for part in view.scene.surfaces
     )
     assert low == pytest.approx(0, abs=2e-3)  # it stands on the ground
@@ -87,11 +86,7 @@ def test_what_cannot_be_shown(make, error, message):
 
 @pytest.mark.parametrize(
     ("name", "size"),
-    [
-        ("burger", "0.138 x 0.179 x 0.192"),
-        ("waffle", "0.270 x 0.307 x 0.142"),
-        ("waffle_pi", "0.282 x 0.307 x 0.142"),
-    ],
+    [("burger", "0.138 x 0.179 x 0.192"), ("waffle", "0.270 x 0.307 x 0.142"), ("waffle_pi", "0.282 x 0.307 x 0.142")],
 )
 def test_turtlebot3(name, size):
     view = turtlebot3(name).show3d()
@@ -108,11 +103,7 @@ def test_waffles_in_a_world_are_drawn_from_their_description(name):
     view = robot_3d(world("room"), known, (0.3, 0.2, 0.4), np.full(known.laser.beams, 0.6))
     scene = view.scene
     nodes = {part.node for part in scene.surfaces}
-    assert {
-        "robots/robot/base_link",
-        "robots/robot/wheel_left/wheel_left_link",
-        "robots/robot/base_scan",
-    } <= nodes
+    assert {"robots/robot/base_link", "robots/robot/wheel_left/wheel_left_link", "robots/robot/base_scan"} <= nodes
     place = scene.transform("robots/robot/base_scan")
     c, s = math.cos(0.4), math.sin(0.4)
     assert place[:3, 3] == pytest.approx([0.3 - 0.064 * c, 0.2 - 0.064 * s, 0.132])
@@ -159,11 +150,7 @@ def test_what_is_hidden_is_left_out_and_the_farther_is_painted_first():
     depth_buffer = painted(near, far, behind)
     assert depth_buffer.order == [1, 0]
     assert painted((square(200, 200, 5), 1.0)).order == []
-    assert [
-        depth_buffer.hides(15, 15, 1.5),
-        depth_buffer.hides(15, 15, 0.5),
-        depth_buffer.hides(80, 80, 9.0),
-    ] == [
+    assert [depth_buffer.hides(15, 15, 1.5), depth_buffer.hides(15, 15, 0.5), depth_buffer.hides(80, 80, 9.0)] == [
         True,
         False,
         False,
@@ -177,11 +164,7 @@ def test_a_large_floor_is_painted_before_what_stands_on_its_far_end():
     assert painted(floor, thing).order == [0, 1]
 
 
-@given(
-    st.lists(
-        st.tuples(*[st.integers(1, 39)] * 2, st.integers(2, 25), st.floats(1, 9)), min_size=1, max_size=8
-    )
-)
+@given(st.lists(st.tuples(*[st.integers(1, 39)] * 2, st.integers(2, 25), st.floats(1, 9)), min_size=1, max_size=8))
 def test_painting_in_this_order_shows_what_is_nearest_everywhere(places):
     # No edge goes through the middle of a pixel.
     faces = [(square(x + 0.23, y + 0.31, size), round(depth, 3)) for x, y, size, depth in places]

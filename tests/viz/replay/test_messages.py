@@ -107,13 +107,7 @@ def test_everything_is_found_by_its_type_and_laid_into_the_map(bag):
         range_max=3.0, ranges=np.array([1.0, 9.0, 0.05, np.nan], dtype=np.float32),
     )  # fmt: skip
     image = made(
-        "sensor_msgs/Image",
-        "camera",
-        width=2,
-        height=1,
-        encoding="rgb8",
-        step=6,
-        data=bytes([255, 0, 0, 0, 0, 0]),
+        "sensor_msgs/Image", "camera", width=2, height=1, encoding="rgb8", step=6, data=bytes([255, 0, 0, 0, 0, 0])
     )
     particles = made("geometry_msgs/PoseArray", "map", poses=[pose(1.0, 2.0, 0.5), pose(2.0, 1.0, 0.0)])
     messages = [
@@ -123,11 +117,7 @@ def test_everything_is_found_by_its_type_and_laid_into_the_map(bag):
         (1.5, "/particlecloud", particles),
         (2.0, "/scan", scan),
         (2.5, "/camera/image", image),
-        (
-            3.0,
-            "/frontiers",
-            made("visualization_msgs/MarkerArray", markers=[marker(points=[(1, 1), (2, 2)])]),
-        ),
+        (3.0, "/frontiers", made("visualization_msgs/MarkerArray", markers=[marker(points=[(1, 1), (2, 2)])])),
     ]
     run = run_of(BagLog(bag(*sorted(messages, key=lambda each: each[0]))))
     assert run.frame == "map"
@@ -206,11 +196,7 @@ def test_markers_are_there_until_they_are_deleted_or_expire(bag):
 
 def test_poses_without_a_transform_are_laid_on_the_robots_start_with_a_word(bag):
     truth = [
-        (
-            t,
-            "/truth",
-            made("nav_msgs/Odometry", "world", START + t, pose__pose=pose(5.0, 5.0 + t, math.pi / 2)),
-        )
+        (t, "/truth", made("nav_msgs/Odometry", "world", START + t, pose__pose=pose(5.0, 5.0 + t, math.pi / 2)))
         for t in (0.0, 0.5, 1.0, 1.5, 2.0)
     ]
     run = run_of(BagLog(bag(*sorted([*driving(2.0), *truth], key=lambda each: each[0]))))
@@ -235,9 +221,7 @@ def test_odometry_from_before_the_first_transform_does_not_move_what_comes_later
 
 
 def test_turtles_are_bodies(bag):
-    poses = [
-        (i / 10, "/turtle1/pose", made("turtlesim/Pose", x=5.5 + i / 10, y=5.5, theta=0.0)) for i in range(11)
-    ]
+    poses = [(i / 10, "/turtle1/pose", made("turtlesim/Pose", x=5.5 + i / 10, y=5.5, theta=0.0)) for i in range(11)]
     [turtle] = run_of(BagLog(bag(*poses))).bodies
     assert turtle.poses[-1] == pytest.approx((6.5, 5.5, 0.0), abs=1e-6)
 
@@ -291,9 +275,7 @@ def test_a_map_of_4000_cells_a_side_is_small_in_the_page(bag):
 def test_numbers_that_are_none_are_left_out(bag):
     bad = path([(math.nan, 0.0), (1.0, 1.0)])
     none = path([(math.inf, 0.0)])
-    scan = made(
-        "sensor_msgs/LaserScan", "map", angle_increment=math.nan, ranges=np.zeros(3, dtype=np.float32)
-    )
+    scan = made("sensor_msgs/LaserScan", "map", angle_increment=math.nan, ranges=np.zeros(3, dtype=np.float32))
     run = run_of(BagLog(bag((0.0, "/a", bad), (1.0, "/b", none), (2.0, "/scan", scan))))
     assert [each.name for each in run.layers] == ["/a"]
     assert layer(run, "/a").items[0][0].points.tolist() == [[1.0, 1.0]]

@@ -91,11 +91,7 @@ def test_the_scene_is_the_world_in_plain_numbers():
     assert scene["bounds"] == [-3.0, -3.0, 3.0, 2.0]
     assert scene["segments"] == [[-3.0, -3.0, 3.0, -3.0]]
     box, pillar, wedge = scene["shapes"]
-    assert box == {
-        "kind": "polygon",
-        "points": [[1.5, 0.0], [1.5, 2.0], [0.5, 2.0], [0.5, 0.0]],
-        "colour": "blue",
-    }
+    assert box == {"kind": "polygon", "points": [[1.5, 0.0], [1.5, 2.0], [0.5, 2.0], [0.5, 0.0]], "colour": "blue"}
     assert pillar == {"kind": "disc", "x": -1.0, "y": 0.123, "r": 0.25, "colour": "grey"}
     assert wedge["points"] == [[1.0, -2.0], [0.0, -1.0], [0.0, -2.0]]
     robot = scene["robot"]
@@ -113,18 +109,14 @@ def test_a_robot_that_has_its_speed_at_once_can_be_drawn():
 
 def test_a_laser_says_how_it_looks_where_it_is_no_plain_one():
     lidar = replace(BURGER.laser, mount=(0.1, 0.05, 0.2), angle_min=-1.0, angle_max=1.0, beams=5, yaw=0.25)
-    found = scene_data(World("field"), replace(BURGER, lidar=replace(lidar, range_max=math.inf)))["robot"][
-        "lidar"
-    ]
+    found = scene_data(World("field"), replace(BURGER, lidar=replace(lidar, range_max=math.inf)))["robot"]["lidar"]
     assert found == {"x": 0.1, "y": 0.05, "beams": 5, "min": 0.12, "max": 1e6, "start": -0.75, "step": 0.5}
 
 
 def test_the_scene_does_not_hang_on_the_last_bit():
     def scene(nudge):
         poses = [(0.0005 + nudge, -1.0 - nudge, 0.0), (-0.0005 - nudge, 0.1235 - nudge, math.pi / 2 + nudge)]
-        return scene_data(
-            World("w", tuple(Obstacle(f"o{i}", Box(0.25, 0.333), pose) for i, pose in enumerate(poses)))
-        )
+        return scene_data(World("w", tuple(Obstacle(f"o{i}", Box(0.25, 0.333), pose) for i, pose in enumerate(poses))))
 
     assert scene(0.0) == scene(1e-12) == scene(-1e-12)
     assert "-0.0," not in json.dumps(scene(0.0))
@@ -141,9 +133,7 @@ def test_small_steps_take_one_byte():
     assert base64.b64decode(pack(np.array([64, 64 - 8192]))) == bytes([0x80, 0x01, 0xFF, 0x7F])
 
 
-@given(
-    arrays(float, st.integers(1, 50), elements=st.floats(-1e4, 1e4)), st.sampled_from([LENGTH, ANGLE, TIME])
-)
+@given(arrays(float, st.integers(1, 50), elements=st.floats(-1e4, 1e4)), st.sampled_from([LENGTH, ANGLE, TIME]))
 def test_rounding_is_off_by_little_more_than_half_a_quantum(values, quantum):
     assert np.abs(whole(values, quantum) * quantum - values).max() <= 0.54 * quantum + 1e-9
 
@@ -298,9 +288,7 @@ def test_a_run_of_one_sample_and_one_without_scans_can_be_replayed():
 
 def test_what_is_no_run_is_refused():
     recording = run(1.0)
-    with pytest.raises(
-        ViewError, match="replay shows a Recording, a bag, an MCAP file or a Run, not 'recording'"
-    ):
+    with pytest.raises(ViewError, match="replay shows a Recording, a bag, an MCAP file or a Run, not 'recording'"):
         replay("recording")
     with pytest.raises(RecordingError, match="at least one sample"):
         replace(recording, times=np.empty(0), truth=np.empty((0, 3)), odom=np.empty((0, 3)))
@@ -355,9 +343,7 @@ def test_other_robots_reach_the_page_with_their_own_shape_and_way():
     assert other["robot"]["wheel_separation"] == 0.287
     own, theirs = unpacked(data["truth"]), unpacked(other["track"])
     count = len(own) // 3
-    assert [b - a for a, b in zip(own[count : 2 * count], theirs[count : 2 * count], strict=True)] == [
-        500
-    ] * count
+    assert [b - a for a, b in zip(own[count : 2 * count], theirs[count : 2 * count], strict=True)] == [500] * count
 
 
 def test_what_moves_is_no_part_of_the_still_scene():

@@ -43,12 +43,8 @@ def test_text(bag):
 
 def test_where_it_is_drawn(bag):
     svg = rqt_bag(bag).svg
-    left, room = (
-        float(x) for x in re.search(r'class="r" x="([\d.]+)" y="[\d.]+" width="([\d.]+)"', svg).groups()
-    )
-    x, wide = (
-        float(x) for x in re.search(r'class="x" x="([\d.]+)" y="[\d.]+" width="([\d.]+)"', svg).groups()
-    )
+    left, room = (float(x) for x in re.search(r'class="r" x="([\d.]+)" y="[\d.]+" width="([\d.]+)"', svg).groups())
+    x, wide = (float(x) for x in re.search(r'class="x" x="([\d.]+)" y="[\d.]+" width="([\d.]+)"', svg).groups())
     assert (x - left) / room == pytest.approx(0.4, abs=0.002)
     assert wide / room == pytest.approx(0.2, abs=0.002)
     chatter, one = re.findall(r'class="m" d="([^"]+)"', svg)

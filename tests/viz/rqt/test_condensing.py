@@ -45,15 +45,10 @@ def test_a_small_graph_is_drawn_as_it_is():
 def test_robots_of_one_kind_become_one():
     robots = [f"/robot{i}" for i in range(120)]
     pubs = [[f"{robot}/scan", [f"{robot}/laser"]] for robot in robots]
-    subs = [
-        [f"{robot}/scan", [f"{robot}/{name}" for name in ("amcl", "move_base", "slam")]] for robot in robots
-    ]
+    subs = [[f"{robot}/scan", [f"{robot}/{name}" for name in ("amcl", "move_base", "slam")]] for robot in robots]
     picture = rqt_graph([pubs, subs, []])
     assert picture.text.startswith("rqt_graph: 480 nodes drawn as 2, 120 topics drawn as 1")
-    assert (
-        "/robot0/laser … /robot99/laser (120 nodes) -> /robot0/scan … /robot99/scan (120 topics) -> "
-        in picture.text
-    )
+    assert "/robot0/laser … /robot99/laser (120 nodes) -> /robot0/scan … /robot99/scan (120 topics) -> " in picture.text
 
 
 @pytest.mark.parametrize("mode", MODES)
@@ -72,26 +67,20 @@ def test_a_thousand_nodes_and_five_thousand_arrows_end_below_the_limit(mode):
     assert sorted(one for name in small.nodes for one in members(small, name)) == sorted(names)
 
 
-NAMES = st.sampled_from(
-    [f"/{space}{word}{i}" for space in ("", "x/", "y/") for word in "ab" for i in range(3)]
-)
+NAMES = st.sampled_from([f"/{space}{word}{i}" for space in ("", "x/", "y/") for word in "ab" for i in range(3)])
 TOPICS = [*(f"/t{i}" for i in range(6)), "/a1", "/x/b2"]  # a node and a topic may have one name
 ENDS = st.dictionaries(st.sampled_from(TOPICS), st.sets(NAMES, max_size=6), max_size=8)
 
 
 @given(ENDS, ENDS, st.sampled_from(MODES), st.integers(1, 40))
 def test_nothing_is_lost_and_nothing_invented(publishers, subscribers, mode, limit):
-    state = graph_state(
-        [[[t, sorted(n)] for t, n in side.items()] for side in (publishers, subscribers)] + [[]]
-    )
+    state = graph_state([[[t, sorted(n)] for t, n in side.items()] for side in (publishers, subscribers)] + [[]])
     whole = select(state, mode)
     small = condensed(whole, limit)
     assert sorted(one for name in small.nodes for one in members(small, name)) == sorted(whole.nodes)
     assert sorted(one for name in small.topics for one in members(small, name)) == sorted(whole.topics)
     for end in ("publications", "subscriptions"):
-        before = {
-            (home(small, node, "nodes"), home(small, topic, "topics")) for node, topic in getattr(whole, end)
-        }
+        before = {(home(small, node, "nodes"), home(small, topic, "topics")) for node, topic in getattr(whole, end)}
         assert set(getattr(small, end)) == before
     if mode == "nodes_only":
         before = {

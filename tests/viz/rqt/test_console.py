@@ -14,12 +14,8 @@ from rosmini.msgs.rosgraph_msgs.msg import Log
 from rosmini.viz import ViewError, rqt_console
 
 
-def message(
-    level: int, name: str, text: str, *, at: float = 1000.0, topics: tuple[str, ...] = ("/rosout",)
-) -> Any:
-    made = Log(
-        level=level, name=name, msg=text, file="/home/user/ws/src/robot/talk.py", line=7, function="speak"
-    )
+def message(level: int, name: str, text: str, *, at: float = 1000.0, topics: tuple[str, ...] = ("/rosout",)) -> Any:
+    made = Log(level=level, name=name, msg=text, file="/home/user/ws/src/robot/talk.py", line=7, function="speak")
     made.header.stamp = Time.from_sec(at)
     made.topics = list(topics)
     return made
@@ -189,6 +185,5 @@ def test_a_graph_shows_its_log() -> None:
         graph.run(0.1)
         shown = console.show(title="Log")
     assert re.fullmatch(
-        r"Log: 1 message\n  1000\.100  INFO  /node  hello  test_console\.py:\d+ test_a_graph_shows_its_log",
-        shown.text,
+        r"Log: 1 message\n  1000\.100  INFO  /node  hello  test_console\.py:\d+ test_a_graph_shows_its_log", shown.text
     )

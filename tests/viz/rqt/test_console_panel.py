@@ -39,12 +39,7 @@ def test_messages_are_shown_as_they_come(console, say):
 
 @pytest.mark.parametrize(
     ("key", "value", "left"),
-    [
-        ("level", "WARN", ["two!"]),
-        ("text", "ON", ["one"]),
-        ("exclude", "one", ["two!"]),
-        ("node", "-/talker", []),
-    ],
+    [("level", "WARN", ["two!"]), ("text", "ON", ["one"]), ("exclude", "one", ["two!"]), ("node", "-/talker", [])],
 )
 def test_the_page_filters(console, say, key, value, left):
     say("one", "two!")

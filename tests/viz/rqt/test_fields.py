@@ -30,18 +30,14 @@ def test_each_leaf_has_a_control_and_messages_within_have_none():
 
 
 def test_a_field_becomes_what_its_type_wants():
-    made = filled(
-        "sensor_msgs/LaserScan", header__stamp="1.5", header__seq="i", ranges="[1, 2.5]", angle_min="1"
-    )
+    made = filled("sensor_msgs/LaserScan", header__stamp="1.5", header__seq="i", ranges="[1, 2.5]", angle_min="1")
     message = made.message(3)
     assert (message.header.stamp.to_sec(), message.header.seq, message.angle_min) == (1.5, 3, 1.0)
     assert list(message.ranges) == [1, 2.5]
     assert list(filled("sensor_msgs/Image", data="[1, 2]").message(0).data) == [1, 2]
 
 
-@pytest.mark.parametrize(
-    "text", ["'a'", "None", "", "x", "i.real", "__import__('os')", "10 ** 10 ** 10", "[1]"]
-)
+@pytest.mark.parametrize("text", ["'a'", "None", "", "x", "i.real", "__import__('os')", "10 ** 10 ** 10", "[1]"])
 def test_what_is_no_value_of_the_field_is_refused_and_changes_nothing(text):
     fields = filled("std_msgs/Float64", data="2")
     with pytest.raises(ViewError):

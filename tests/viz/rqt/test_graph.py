@@ -102,9 +102,7 @@ def test_what_is_new_and_what_is_gone_since_an_earlier_state(mode):
     svg = ET.fromstring(view.svg)
     marked = {
         change: sorted(
-            group.find(f"{SVG}title").text
-            for group in svg.iter(f"{SVG}g")
-            if change in group.get("class", "")
+            group.find(f"{SVG}title").text for group in svg.iter(f"{SVG}g") if change in group.get("class", "")
         )
         for change in ("rm-new", "rm-gone")
     }
@@ -163,9 +161,7 @@ def test_without_hiding_everything_is_there_and_all_topics_are_boxes():
 
 
 def test_active_shows_only_topics_with_a_connection():
-    graph = state(
-        CHATTER, "/talker -> /unheard std_msgs/String ->", "-> /awaited std_msgs/String -> /listener"
-    )
+    graph = state(CHATTER, "/talker -> /unheard std_msgs/String ->", "-> /awaited std_msgs/String -> /listener")
     everything = rqt_graph(graph, mode="nodes_topics_all", hide=())
     active = rqt_graph(graph, mode="nodes_topics_active", hide=())
     assert drawn(everything, "rm-topic") == ["/awaited", "/chatter", "/unheard"]
@@ -177,35 +173,12 @@ def test_active_shows_only_topics_with_a_connection():
 @pytest.mark.parametrize(
     ("switch", "kept"),
     [
-        (
-            (),
-            {
-                "/chatter",
-                "/one",
-                "/sink",
-                "/tf",
-                "/p/parameter_updates",
-                "/p/parameter_descriptions",
-                "/clock",
-            },
-        ),
-        (
-            ("dead_sinks",),
-            {"/chatter", "/one", "/tf", "/p/parameter_updates", "/p/parameter_descriptions", "/clock"},
-        ),
-        (
-            ("leaf_topics",),
-            {"/chatter", "/tf", "/p/parameter_updates", "/p/parameter_descriptions", "/clock", "/sink"},
-        ),
+        ((), {"/chatter", "/one", "/sink", "/tf", "/p/parameter_updates", "/p/parameter_descriptions", "/clock"}),
+        (("dead_sinks",), {"/chatter", "/one", "/tf", "/p/parameter_updates", "/p/parameter_descriptions", "/clock"}),
+        (("leaf_topics",), {"/chatter", "/tf", "/p/parameter_updates", "/p/parameter_descriptions", "/clock", "/sink"}),
         (("params",), {"/chatter", "/one", "/sink", "/tf", "/clock"}),
-        (
-            ("tf",),
-            {"/chatter", "/one", "/sink", "/p/parameter_updates", "/p/parameter_descriptions", "/clock"},
-        ),
-        (
-            ("debug",),
-            {"/chatter", "/one", "/sink", "/tf", "/p/parameter_updates", "/p/parameter_descriptions"},
-        ),
+        (("tf",), {"/chatter", "/one", "/sink", "/p/parameter_updates", "/p/parameter_descriptions", "/clock"}),
+        (("debug",), {"/chatter", "/one", "/sink", "/tf", "/p/parameter_updates", "/p/parameter_descriptions"}),
     ],
 )
 def test_each_switch_hides_its_topics(switch, kept):
@@ -234,9 +207,7 @@ def test_a_node_that_does_not_answer_is_marked_or_hidden():
 
 
 def test_the_topics_of_an_action_and_of_tf_are_one_box_each():
-    graph = state(
-        *ACTION, "/amcl -> /tf tf2_msgs/TFMessage -> /x", "/amcl -> /tf_static tf2_msgs/TFMessage -> /x"
-    )
+    graph = state(*ACTION, "/amcl -> /tf tf2_msgs/TFMessage -> /x", "/amcl -> /tf_static tf2_msgs/TFMessage -> /x")
     view = rqt_graph(graph, mode="nodes_topics_active")
     assert drawn(view, "rm-topic") == ["/move_base/action_topics", "/tf"]
     assert "/explore, /move_base -> /move_base/action_topics -> /explore, /move_base" in view.text
@@ -289,17 +260,13 @@ def test_a_filter_whose_topics_are_all_hidden_says_what_draws_them():
 
 
 def test_debug_names_are_those_of_the_real_tool():
-    assert all(
-        map(is_debug, ["/rosout", "/rosout_agg", "/rviz_1604", "/rqt_gui_py_node_7", "/clock", "/x/_hidden"])
-    )
+    assert all(map(is_debug, ["/rosout", "/rosout_agg", "/rviz_1604", "/rqt_gui_py_node_7", "/clock", "/x/_hidden"]))
     assert not any(map(is_debug, ["/talker", "/turtle1/cmd_vel", "/move_base"]))
 
 
 def test_loops_and_parallel_edges_are_all_drawn():
     graph = state(
-        "/a -> /x std_msgs/String -> /a /b",
-        "/a -> /y std_msgs/String -> /a /b",
-        "/b -> /z std_msgs/String -> /a",
+        "/a -> /x std_msgs/String -> /a /b", "/a -> /y std_msgs/String -> /a /b", "/b -> /z std_msgs/String -> /a"
     )
     assert drawn(rqt_graph(graph), "rm-edge") == ["/x", "/x", "/y", "/y", "/z"]
 
@@ -379,9 +346,7 @@ def test_the_order_of_registration_does_not_change_a_byte(flows, random):
         for source, topic, sink in flows:
             publishers.setdefault(topic, []).append(source)
             subscribers.setdefault(topic, []).append(sink)
-        return rqt_graph(
-            GraphState.of([publishers.items(), subscribers.items(), []]), mode="nodes_topics_all", hide=()
-        )
+        return rqt_graph(GraphState.of([publishers.items(), subscribers.items(), []]), mode="nodes_topics_all", hide=())
 
     before = picture()
     random.shuffle(flows)

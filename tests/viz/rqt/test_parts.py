@@ -10,10 +10,7 @@ from rosmini.viz.view import ViewError
 RATE = Control("rate", "Rate", "number", 2.5, minimum=0.0, maximum=10.0)
 ALL = (
     Bar((Control("on", "On", "check", True), RATE, Control("go", "Go", "button"), "two")),
-    Box(
-        "Inside",
-        (Rows(("A", "B"), (Row(("x", "1")), Row(("yy", RATE), depth=1, is_marked=True)), "Numbers"),),
-    ),
+    Box("Inside", (Rows(("A", "B"), (Row(("x", "1")), Row(("yy", RATE), depth=1, is_marked=True)), "Numbers"),)),
     Words("that is all"),
 )
 

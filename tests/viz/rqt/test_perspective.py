@@ -14,11 +14,7 @@ from rosmini.viz.view import ViewError
 
 def exported(running: str, **groups) -> str:
     """A file in the form of the real one, with what Qt keeps of its windows."""
-    state = {
-        "type": "repr(QByteArray.hex)",
-        "repr(QByteArray.hex)": "QtCore.QByteArray('00ff')",
-        "pretty-print": " ",
-    }
+    state = {"type": "repr(QByteArray.hex)", "repr(QByteArray.hex)": "QtCore.QByteArray('00ff')", "pretty-print": " "}
     keys = {"running-plugins": {"type": "repr", "repr": running}}
     return json.dumps(
         {
@@ -43,16 +39,12 @@ def test_a_file_of_the_real_rqt():
     text = exported(
         "{u'rqt_plot/Plot': [1, 2], 'rqt_graph/RosGraph': [1]}",
         plugin__rqt_plot__Plot__2=plugin(topics="[u'/odom/twist/twist/linear/x']"),
-        plugin__rqt_graph__RosGraph__1=plugin(
-            graph_type_combo_box_index="u'1'", quiet_check_box_state="'true'"
-        ),
+        plugin__rqt_graph__RosGraph__1=plugin(graph_type_combo_box_index="u'1'", quiet_check_box_state="'true'"),
     )
     assert Perspective.parse(text).running == (
         Running("rqt_plot/Plot", 1),
         Running("rqt_plot/Plot", 2, {"topics": ["/odom/twist/twist/linear/x"]}),
-        Running(
-            "rqt_graph/RosGraph", 1, {"graph_type_combo_box_index": "1", "quiet_check_box_state": "true"}
-        ),
+        Running("rqt_graph/RosGraph", 1, {"graph_type_combo_box_index": "1", "quiet_check_box_state": "true"}),
     )
 
 
@@ -89,9 +81,7 @@ def test_files_that_are_not_there_or_too_large_are_named(tmp_path):
 
 
 VALUES = st.recursive(
-    st.booleans() | st.integers() | st.text(max_size=20),
-    lambda inner: st.lists(inner, max_size=3),
-    max_leaves=5,
+    st.booleans() | st.integers() | st.text(max_size=20), lambda inner: st.lists(inner, max_size=3), max_leaves=5
 )
 PLUGINS = st.from_regex(r"[a-z_]{1,9}/[A-Z][a-z]{0,9}", fullmatch=True)
 

@@ -17,9 +17,7 @@ from rosmini.viz.rqt import DynamicReconfigure
 from rosmini.viz.rqt.parts import controls
 from rosmini.viz.view import ViewError
 
-SPEEDS = repr(
-    {"enum": [{"name": name, "type": "int", "value": i} for i, name in enumerate(("Slow", "Fast"))]}
-)
+SPEEDS = repr({"enum": [{"name": name, "type": "int", "value": i} for i, name in enumerate(("Slow", "Fast"))]})
 
 
 def parameter(name, kind, default, low, high, choices=""):
@@ -36,9 +34,7 @@ ROOT = ParameterGroup(
         parameter("frame", "str", "map", "", ""),
         parameter("free", "double", 1.0, -math.inf, math.inf),
     ),
-    groups=(
-        ParameterGroup("limits", "collapse", id=1, parameters=(parameter("top", "double", 5.0, 0.0, 9.0),)),
-    ),
+    groups=(ParameterGroup("limits", "collapse", id=1, parameters=(parameter("top", "double", 5.0, 0.0, 9.0),)),),
 )
 
 

@@ -44,9 +44,7 @@ def test_the_menus_open_and_close(window, graph):
 def test_there_are_nine_groups_and_every_plugin_of_the_table_in_one(window):
     menus = [control for control in window.parts()[1].cells if not isinstance(control, str)]
     assert len(menus) == 9
-    assert sorted(name for menu in menus for name in menu.choices[1:]) == sorted(
-        entry.name for entry in menu()
-    )
+    assert sorted(name for menu in menus for name in menu.choices[1:]) == sorted(entry.name for entry in menu())
 
 
 PANELS = [each for each in plugins() if each.group and issubclass(each, Panel)]
@@ -118,9 +116,7 @@ def test_files_are_exported_and_imported_and_what_is_missing_is_named(window, gr
     window.set("export")
     data = json.loads(path.read_text(encoding="utf-8"))
     manager = data["groups"]["pluginmanager"]
-    manager["keys"]["running-plugins"]["repr"] = (
-        "{'rqt_plot/Plot': [1], 'rqt_shell/Shell': [1], 'my_pkg/Mine': [1]}"
-    )
+    manager["keys"]["running-plugins"]["repr"] = "{'rqt_plot/Plot': [1], 'rqt_shell/Shell': [1], 'my_pkg/Mine': [1]}"
     manager["groups"]["plugin__rqt_plot__Plot__1"]["groups"]["plugin"]["keys"]["topics"]["repr"] = (
         "['/wave/data', '/no/x']"
     )
@@ -128,11 +124,7 @@ def test_files_are_exported_and_imported_and_what_is_missing_is_named(window, gr
     window.set("import")
     assert running(window) == ["rqt_plot"]
     assert next(iter(window.running.values())).fields == ("/wave/data",)
-    assert [text.partition(":")[0] for text in window.missing] == [
-        "rqt_plot/Plot",
-        "rqt_shell/Shell",
-        "my_pkg/Mine",
-    ]
+    assert [text.partition(":")[0] for text in window.missing] == ["rqt_plot/Plot", "rqt_shell/Shell", "my_pkg/Mine"]
     assert "not here: rqt_shell/Shell: Shell (rqt_shell) is not a panel of this window" in window.text
     assert running(Rqt(graph, perspective=path, name="other")) == ["rqt_plot"]
 
@@ -140,10 +132,7 @@ def test_files_are_exported_and_imported_and_what_is_missing_is_named(window, gr
 def test_where_the_docks_of_the_real_window_are_survives_import_and_export(window, tmp_path):
     """They are in Qt's own form: nothing here reads them, and the real rqt finds its window as it was."""
     state = {"type": "repr(QByteArray.hex)", "repr(QByteArray.hex)": "QtCore.QByteArray('00ff')"}
-    docks = {
-        "keys": {"geometry": state, "state": state},
-        "groups": {"toolbar_areas": {"keys": {}, "groups": {}}},
-    }
+    docks = {"keys": {"geometry": state, "state": state}, "groups": {"toolbar_areas": {"keys": {}, "groups": {}}}}
     text = json.loads(window.perspective().dumps())
     text["groups"]["mainwindow"] = docks
     (tmp_path / "theirs.perspective").write_text(json.dumps(text), encoding="utf-8")

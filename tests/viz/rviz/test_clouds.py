@@ -20,9 +20,7 @@ PointField = message_class("sensor_msgs/PointField")
 LAYOUT = "xyz"
 
 
-def cloud(
-    rows: list[tuple[float, ...]], *, big: bool = False, width: int | None = None, **fields: Any
-) -> Any:
+def cloud(rows: list[tuple[float, ...]], *, big: bool = False, width: int | None = None, **fields: Any) -> Any:
     """A cloud of x, y, z and intensity with 2 bytes between the points."""
     data = b"".join(struct.pack(">ffffxx" if big else "<ffffxx", *row) for row in rows)
     names = [PointField(name, 4 * i, 7, 1) for i, name in enumerate([*LAYOUT, "intensity"])]
@@ -72,9 +70,7 @@ def test_what_does_not_fit_is_named(name):
 @given(
     st.binary(max_size=60),
     st.tuples(*[st.integers(0, 9)] * 3),
-    st.lists(
-        st.tuples(st.sampled_from([*LAYOUT, "rgb", ""]), st.integers(0, 40), st.integers(0, 9)), max_size=6
-    ),
+    st.lists(st.tuples(st.sampled_from([*LAYOUT, "rgb", ""]), st.integers(0, 40), st.integers(0, 9)), max_size=6),
 )
 def test_any_message_is_read_or_refused(data, sizes, fields):
     made = PointCloud2(data=data, width=sizes[0], height=sizes[1], point_step=sizes[2])

@@ -19,14 +19,10 @@ def test_a_public_file_is_written_again_with_all_that_was_in_it(stage, data):
     def lost(old, new, path=""):
         if isinstance(old, dict):
             return [
-                p
-                for k, v in old.items()
-                for p in (lost(v, new.get(k), f"{path}/{k}") if k in new else [f"{path}/{k}"])
+                p for k, v in old.items() for p in (lost(v, new.get(k), f"{path}/{k}") if k in new else [f"{path}/{k}"])
             ]
         if isinstance(old, list):
-            return [
-                p for i, (a, b) in enumerate(zip(old, new, strict=True)) for p in lost(a, b, f"{path}[{i}]")
-            ]
+            return [p for i, (a, b) in enumerate(zip(old, new, strict=True)) for p in lost(a, b, f"{path}[{i}]")]
         return [] if old == new else [f"{path}: {old} -> {new}"]
 
     assert lost(before, saved) == []

@@ -34,11 +34,7 @@ def test_in_a_graph_with_others_it_opens_nothing_and_says_how_to_look(capsys):
     ("words", "error", "said"),
     [
         (("-d", "absent.rviz"), ConfigError, r"absent\.rviz cannot be read"),
-        (
-            ("-d", "package://turtlebot3_navigation/rviz/absent.rviz"),
-            ConfigError,
-            r"absent\.rviz is not there",
-        ),
+        (("-d", "package://turtlebot3_navigation/rviz/absent.rviz"), ConfigError, r"absent\.rviz is not there"),
         (("--ogre",), UsageError, "no such option: --ogre"),
     ],
 )

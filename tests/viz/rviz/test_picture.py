@@ -99,9 +99,7 @@ def test_a_map_in_a_still_has_its_cells_in_their_places(stage):
     scene.add("Map", {"Topic": "/map", "Alpha": 1.0})
     stage.publish("/map", grid(), "map")
     svg = still(scene, fit=True).svg
-    data, matrix = re.search(
-        r'href="data:image/gif;base64,([^"]+)".*?transform="matrix\(([^)]*)\)"', svg
-    ).groups()
+    data, matrix = re.search(r'href="data:image/gif;base64,([^"]+)".*?transform="matrix\(([^)]*)\)"', svg).groups()
     cells = np.asarray(Image.open(io.BytesIO(base64.b64decode(data))).convert("RGB"))
     assert cells[0].tolist() == [[255, 255, 255], [0, 0, 0], [0x70, 0x89, 0x86]]
     a, b, c, d, *_ = map(float, matrix.split())
@@ -131,18 +129,14 @@ def test_views_look_from_where_files_say(stage):
     scene = stage.scene()
     stage.place("map", "base", (2.0, 1.0, 0.0), yaw=np.pi / 2)
     stage.graph.run(0.1)
-    above = TopDownOrtho({"Scale": 90, "X": 1.0, "Target Frame": "base", "Angle": -np.pi / 2}).viewpoint(
-        scene.context
-    )
+    above = TopDownOrtho({"Scale": 90, "X": 1.0, "Target Frame": "base", "Angle": -np.pi / 2}).viewpoint(scene.context)
     assert above.target == pytest.approx([3, 1, 0])
     assert above.width == pytest.approx(10.0)
     orbit = Orbit({"Focal Point": {"X": 1, "Y": 0, "Z": 0}, "Target Frame": "base", "Yaw": 0.5}).viewpoint(
         scene.context
     )
     assert (orbit.yaw, *orbit.target) == pytest.approx((0.5, 3, 1, 0))
-    behind = ThirdPersonFollower(
-        {"Focal Point": {"X": 1, "Y": 0, "Z": 0}, "Target Frame": "base", "Yaw": 0.5}
-    )
+    behind = ThirdPersonFollower({"Focal Point": {"X": 1, "Y": 0, "Z": 0}, "Target Frame": "base", "Yaw": 0.5})
     found = behind.viewpoint(scene.context)
     assert (found.yaw, *found.target) == pytest.approx((0.5 + np.pi / 2, 2, 2, 0))
     assert Orbit({"Target Frame": "nowhere"}).viewpoint(scene.context).target == pytest.approx([0, 0, 0])

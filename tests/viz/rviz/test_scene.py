@@ -10,9 +10,7 @@ from rosmini.viz.rviz import Display, DisplayError, Level
 
 def registered(stage) -> list[str]:
     state = stage.graph.ask_as("/test").ask("getSystemState")
-    return sorted(
-        {node for side in state[:2] for _, nodes in side for node in nodes if node.startswith("/rviz")}
-    )
+    return sorted({node for side in state[:2] for _, nodes in side for node in nodes if node.startswith("/rviz")})
 
 
 def test_a_scene_subscribes_and_leaves_no_trace(stage):

@@ -13,12 +13,7 @@ from rosmini.viz.rviz.selection import hit, picked
 
 def scan():
     return LaserScan(
-        angle_min=-1.0,
-        angle_increment=1.0,
-        range_min=0.1,
-        range_max=9.0,
-        ranges=[2.0, 2.0, 2.0],
-        angle_max=1.0,
+        angle_min=-1.0, angle_increment=1.0, range_min=0.1, range_max=9.0, ranges=[2.0, 2.0, 2.0], angle_max=1.0
     )
 
 

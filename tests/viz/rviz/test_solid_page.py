@@ -102,9 +102,7 @@ def test_a_goal_is_dragged_on_the_ground_as_the_eye_sees_it(window):
     window.graph.run(0.1)
     (goal,) = goals
     assert (goal.pose.position.x, goal.pose.position.y) == pytest.approx((1.0, 3.0), abs=0.01)
-    assert 2 * math.atan2(goal.pose.orientation.z, goal.pose.orientation.w) == pytest.approx(
-        -math.pi / 2, abs=0.01
-    )
+    assert 2 * math.atan2(goal.pose.orientation.z, goal.pose.orientation.w) == pytest.approx(-math.pi / 2, abs=0.01)
 
 
 def test_an_interactive_marker_is_lifted_along_its_axis(window):

@@ -73,9 +73,7 @@ def test_a_goal_lies_on_the_ground_and_a_click_heads_along_x(received):
     said, goal = after("2D Nav Goal", (1.0, -2.0, 0.5), (0.0, -2.0, 0.5))
     assert (goal.pose.position.x, goal.pose.position.y, goal.pose.position.z) == (1.0, -2.0, 0.0)
     assert abs(goal.pose.orientation.z) == pytest.approx(1.0)
-    assert said.startswith(
-        "Setting goal: Frame:map, Position(1.000, -2.000, 0.000), Orientation(0.000, 0.000, "
-    )
+    assert said.startswith("Setting goal: Frame:map, Position(1.000, -2.000, 0.000), Orientation(0.000, 0.000, ")
     assert after("g", (3.0, 4.0))[1].pose.orientation.w == 1.0
 
 

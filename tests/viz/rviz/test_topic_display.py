@@ -164,10 +164,7 @@ def test_a_message_without_a_frame_is_an_error(stage, statuses):
     stage.place("map", "laser")
     stage.publish("/scan", scan(1.0))
     scene.update()
-    assert statuses(display)["Transform [sender=/robot]"] == (
-        "Error",
-        "For frame []: Frame [] does not exist",
-    )
+    assert statuses(display)["Transform [sender=/robot]"] == ("Error", "For frame []: Frame [] does not exist")
 
 
 def test_in_the_fixed_frame_no_transforms_are_needed(stage, statuses):

@@ -70,9 +70,7 @@ def test_a_goal_is_published_where_a_hand_drags(graph, window):
     (goal,) = goals
     assert goal.header.frame_id == "map"
     assert (goal.pose.position.x, goal.pose.position.y) == pytest.approx((1.0, 2.0), abs=0.02)
-    assert 2 * math.atan2(goal.pose.orientation.z, goal.pose.orientation.w) == pytest.approx(
-        math.pi / 2, abs=0.02
-    )
+    assert 2 * math.atan2(goal.pose.orientation.z, goal.pose.orientation.w) == pytest.approx(math.pi / 2, abs=0.02)
     assert window.tools.current.label == "Interact"
     assert "Setting goal" in window.text
 
@@ -101,9 +99,7 @@ def test_what_a_hand_takes_hold_of_follows_it_however_often_it_tells(graph, wind
         window.set("view", f"move {start[0] + part * 100:.1f} {start[1]:.1f}")
     window.set("view", f"release {start[0] + 100:.1f} {start[1]:.1f}")
     window.parts()
-    assert window._projection.pixels(np.array([[1.0, 3.0, 0.0]]))[0] == pytest.approx(
-        start + (100, 0), abs=0.3
-    )
+    assert window._projection.pixels(np.array([[1.0, 3.0, 0.0]]))[0] == pytest.approx(start + (100, 0), abs=0.3)
 
 
 def test_a_hand_drags_an_interactive_marker(graph, window):
@@ -145,9 +141,7 @@ def test_the_camera_follows_a_drag_and_zooms_around(graph, window):
     window.set("view", f"press {before}")
     window.set("view", f"move {end}")
     window.set("view", f"release {end}")
-    moved = [
-        float(a) - float(b) for a, b in zip(pixel(window, 2.0, 2.0).split(), before.split(), strict=True)
-    ]
+    moved = [float(a) - float(b) for a, b in zip(pixel(window, 2.0, 2.0).split(), before.split(), strict=True)]
     window.parts()
     assert moved == pytest.approx([window._projection.scale, 0.0], abs=0.5)
     scale = window._projection.scale

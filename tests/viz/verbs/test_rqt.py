@@ -180,9 +180,7 @@ def test_the_table_of_plugins_has_nine_groups_and_names_every_tool_that_is_here(
     rows = [row.cells for row in TOOL.run("plugins").view.part.rows]  # type: ignore[attr-defined]
     assert len({row[0] for row in rows}) == 9
     assert len(rows) == len({row[2] for row in rows})
-    assert {row[3] for row in rows if row[3] in cli.COMMANDS} >= {
-        plugin.tool for plugin in plugins() if plugin.group
-    }
+    assert {row[3] for row in rows if row[3] in cli.COMMANDS} >= {plugin.tool for plugin in plugins() if plugin.group}
 
 
 def test_a_terminal_writes_a_page_and_opens_it(

@@ -46,9 +46,7 @@ def test_a_file_and_a_frame(graph: Graph, tmp_path: Path) -> None:
         scene.add("LaserScan", {"Topic": "/scan"}, name="Front laser")
         scene.save(tmp_path / "my.rviz")
     warned: list[str] = []
-    result = TOOL.run(
-        "-d", str(tmp_path / "my.rviz"), "-f", "odom", "--still", graph=graph, warn=warned.append
-    )
+    result = TOOL.run("-d", str(tmp_path / "my.rviz"), "-f", "odom", "--still", graph=graph, warn=warned.append)
     assert "fixed frame odom" in result.view.text
     assert "Front laser (rviz/LaserScan): Ok" in result.view.text
     assert warned == []

@@ -80,11 +80,7 @@ class Driver:
             message.header.stamp, message.header.frame_id = rospy.Time.now(), self.frame
             twist = message.twist
         ahead, left, up, turn = self.direction
-        twist.linear.x, twist.linear.y, twist.linear.z = (
-            ahead * self.speed,
-            left * self.speed,
-            up * self.speed,
-        )
+        twist.linear.x, twist.linear.y, twist.linear.z = (ahead * self.speed, left * self.speed, up * self.speed)
         twist.angular.z = turn * self.turn
         self.publisher.publish(message)
 

@@ -24,9 +24,7 @@ def rotate(speed, angle, clockwise):
         publisher.publish(velocity)
         rate.sleep()
     publisher.publish(Twist())
-    rospy.loginfo(
-        "turned by %.0f degrees %s", math.degrees(angle), "clockwise" if clockwise else "to the left"
-    )
+    rospy.loginfo("turned by %.0f degrees %s", math.degrees(angle), "clockwise" if clockwise else "to the left")
 
 
 def main():

@@ -58,9 +58,7 @@ class TopicFault:
         for name in ("delay", "jitter"):
             span_ns(getattr(self, name), name)
         if not (self.lose or self.double or self.delay or self.jitter):
-            raise FaultError(
-                f"say what happens to the messages of {self.topic}: lose, double, delay or jitter"
-            )
+            raise FaultError(f"say what happens to the messages of {self.topic}: lose, double, delay or jitter")
 
     def __str__(self) -> str:
         parts = []
@@ -207,9 +205,7 @@ class Faults:
         for node in nodes:
             if isinstance(node.clock, TopicClock):
                 if name:
-                    raise FaultError(
-                        f"{name} has no clock of its own: it follows /clock, as /use_sim_time says"
-                    )
+                    raise FaultError(f"{name} has no clock of its own: it follows /clock, as /use_sim_time says")
                 continue
             self._set_jump(node, self._jumps.get(node.name, 0.0) + seconds)
 

@@ -222,9 +222,7 @@ class History:
             return f"{code}: {status}"
         if method == "requestTopic":
             return str(value[0])
-        if method.startswith(
-            ("register", "getParam", "lookup", "hasParam", "search", "unregister", "subscribe")
-        ):
+        if method.startswith(("register", "getParam", "lookup", "hasParam", "search", "unregister", "subscribe")):
             return self.name_at(value) if isinstance(value, str) else self._shown(value)
         return "1"
 
@@ -306,9 +304,7 @@ class History:
         source = self.event(cause)
         if source is None:
             return self._note(kind, peer, node, topic, message=values(frozen), cause=cause, **more)
-        return self._note(
-            kind, peer, node, topic, count=source.count, message=source.message, cause=cause, **more
-        )
+        return self._note(kind, peer, node, topic, count=source.count, message=source.message, cause=cause, **more)
 
     def requested(self, node: str, peer: str, service: str, request: Any) -> Event:
         """Record a request, which carries its number from now on."""
@@ -381,9 +377,7 @@ class _Deliveries(Observer):
         callback = connection.first_callback
         if callback is not None:
             subscription = connection.subscription
-            self._history.delivered(
-                subscription.node.name, connection.peer, subscription.topic, frozen, callback
-            )
+            self._history.delivered(subscription.node.name, connection.peer, subscription.topic, frozen, callback)
 
     def after(self) -> None:
         self._history.act_on(None)

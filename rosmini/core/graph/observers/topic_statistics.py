@@ -147,9 +147,7 @@ class _Window:
 
     def _publish(self, now: int) -> None:
         count = len(self._arrivals)
-        periods = [
-            later - earlier for earlier, later in zip(self._arrivals, self._arrivals[1:], strict=False)
-        ]
+        periods = [later - earlier for earlier, later in zip(self._arrivals, self._arrivals[1:], strict=False)]
         message = self._class(
             **self._names,
             window_start=Time(0, self._start),

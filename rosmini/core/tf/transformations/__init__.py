@@ -10,12 +10,7 @@ from __future__ import annotations
 
 from rosmini.core.geometry.products import inverse_matrix
 
-from .euler import (
-    euler_from_matrix,
-    euler_from_quaternion,
-    euler_matrix,
-    quaternion_from_euler,
-)
+from .euler import euler_from_matrix, euler_from_quaternion, euler_matrix, quaternion_from_euler
 from .matrices import (
     concatenate_matrices,
     identity_matrix,
@@ -27,10 +22,7 @@ from .matrices import (
     unit_vector,
     vector_norm,
 )
-from .parts import (
-    compose_matrix,
-    decompose_matrix,
-)
+from .parts import compose_matrix, decompose_matrix
 from .quaternions import (
     quaternion_about_axis,
     quaternion_conjugate,

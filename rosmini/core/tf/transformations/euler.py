@@ -38,12 +38,7 @@ def order_of(axes: Axes) -> Order:
     """
     if isinstance(axes, str):
         letters = ["xyz".find(letter) for letter in axes[1:]]
-        if (
-            len(letters) != 3
-            or axes[0] not in "sr"
-            or -1 in letters
-            or letters[1] in (letters[0], letters[2])
-        ):
+        if len(letters) != 3 or axes[0] not in "sr" or -1 in letters or letters[1] in (letters[0], letters[2]):
             raise KeyError(axes)
         first, second, last = letters if axes[0] == "s" else letters[::-1]
         turning = axes[0] == "r"

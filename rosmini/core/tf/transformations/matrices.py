@@ -116,12 +116,8 @@ def fixed_point(matrix: Floats) -> Floats:
     known = values > 1e-14 * max(values[-1], EPS)  # along the other axes use 0: the shortest solution
     parts = matrix_product(axes.T, matrix_product(rows.T, moved)) * known / np.where(known, values, 1.0)
     point = matrix_product(axes, parts)
-    if not np.allclose(
-        matrix_product(linear, point) + moved, point, atol=1e-6 * max(1.0, float(np.abs(moved).max()))
-    ):
-        raise ValueError(
-            "no unit eigenvector corresponding to eigenvalue 1: the matrix leaves no point where it is"
-        )
+    if not np.allclose(matrix_product(linear, point) + moved, point, atol=1e-6 * max(1.0, float(np.abs(moved).max()))):
+        raise ValueError("no unit eigenvector corresponding to eigenvalue 1: the matrix leaves no point where it is")
     return np.append(point, 1.0)
 
 

@@ -39,9 +39,7 @@ def compose_matrix(
     return whole
 
 
-def decompose_matrix(
-    matrix: ArrayLike,
-) -> tuple[Floats, list[float], list[float], Floats, Floats]:
+def decompose_matrix(matrix: ArrayLike) -> tuple[Floats, list[float], list[float], Floats, Floats]:
     """Return scale, shear, angles, translation and perspective, as for `compose_matrix`.
 
     Raises `ValueError` if the matrix is singular.

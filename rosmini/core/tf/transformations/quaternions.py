@@ -116,9 +116,7 @@ def quaternion_slerp(
     angle = math.acos(cosine) + spin * math.pi
     if abs(angle) < EPS:
         return first
-    result: Floats = (
-        math.sin((1 - fraction) * angle) * first + math.sin(fraction * angle) * second
-    ) / math.sin(angle)
+    result: Floats = (math.sin((1 - fraction) * angle) * first + math.sin(fraction * angle) * second) / math.sin(angle)
     return result
 
 

@@ -36,9 +36,7 @@ def is_known(error: BaseException) -> bool:
     return isinstance(error, RosminiError | ModuleNotFoundError)
 
 
-def explain(
-    error: BaseException, graph: Survey | None, static: Callable[[], Iterable[Finding]]
-) -> Finding | None:
+def explain(error: BaseException, graph: Survey | None, static: Callable[[], Iterable[Finding]]) -> Finding | None:
     """Return the finding that explains an error, with the related places; None if no finding does.
 
     Args:
@@ -69,13 +67,7 @@ def _package_in(line: str) -> str:
     """Return the package named in a line of a static finding: ``name: ...``, ``name/script: ...`` or a manifest."""
     place = re.split(r":(?:\s|\d)", line, maxsplit=1)[0]
     path = PurePath(place)
-    return (
-        path.parent.name
-        if path.name in ("package.xml", "manifest.xml")
-        else path.parts[0]
-        if path.parts
-        else ""
-    )
+    return path.parent.name if path.name in ("package.xml", "manifest.xml") else path.parts[0] if path.parts else ""
 
 
 def _of_graph(error: RosminiError, graph: Survey) -> Iterator[Finding]:

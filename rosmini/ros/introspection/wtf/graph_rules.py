@@ -25,9 +25,7 @@ UNPUBLISHED = ("/clock", "/rosout")
 def silent_nodes(graph: Survey) -> Iterator[Finding]:
     """Find nodes that the Master lists but that do not answer."""
     found = tuple(
-        f"{node.name}: {node.silence.removeprefix('ERROR: ')}"
-        for node in graph.nodes.values()
-        if node.silence
+        f"{node.name}: {node.silence.removeprefix('ERROR: ')}" for node in graph.nodes.values() if node.silence
     )
     if found:
         yield Finding(

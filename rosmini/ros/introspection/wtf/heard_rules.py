@@ -77,9 +77,7 @@ def several_parents(heard: Heard) -> Iterator[Finding]:
     parents: dict[str, set[str]] = {}
     for each in heard.transforms:
         parents.setdefault(each.child, set()).add(each.parent)
-    found = [
-        f"{child}: {', '.join(sorted(over))}" for child, over in sorted(parents.items()) if len(over) > 1
-    ]
+    found = [f"{child}: {', '.join(sorted(over))}" for child, over in sorted(parents.items()) if len(over) > 1]
     if found:
         yield Finding(
             "several_parents", "ERROR", "Frames have several parents, and tf is a tree:", tuple(found),

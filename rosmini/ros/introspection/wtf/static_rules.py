@@ -48,9 +48,7 @@ def missing_dependencies(environ: Mapping[str, str], packages: PackageIndex) -> 
     """Find dependencies of the user's packages that are missing."""
     found = []
     for name in _own(environ, packages)[0]:
-        missing = [
-            each for each in packages.find(name).exec_depends if each not in packages and each not in BUILT_IN
-        ]
+        missing = [each for each in packages.find(name).exec_depends if each not in packages and each not in BUILT_IN]
         if missing:
             found.append(f"{name}: {', '.join(missing)}")
     if found:
@@ -123,11 +121,7 @@ def _own(environ: Mapping[str, str], packages: PackageIndex) -> tuple[list[str],
 def _scripts(folder: Path) -> list[Path]:
     """Return the Python files that are scripts, judged by their folder and by first line or name."""
     files = [each for part in SCRIPT_FOLDERS for each in sorted((folder / part).glob("*")) if each.is_file()]
-    return [
-        each
-        for each in files
-        if each.name != "__init__.py" and (each.suffix == ".py" or b"python" in _head(each))
-    ]
+    return [each for each in files if each.name != "__init__.py" and (each.suffix == ".py" or b"python" in _head(each))]
 
 
 def _head(script: Path) -> bytes:

@@ -68,9 +68,7 @@ def survey(peers: Peers) -> Survey:
     published, subscribed, services = (
         {name: tuple(sorted(holders)) for name, holders in part} for part in master.ask("getSystemState")
     )
-    names = sorted(
-        {name for part in (published, subscribed, services) for held in part.values() for name in held}
-    )
+    names = sorted({name for part in (published, subscribed, services) for held in part.values() for name in held})
     parameters = master.find("getParam", "/")
     uris = {name: master.find("lookupNode", name) for name in names}
     by_uri = {uri: name for name, uri in uris.items() if uri is not None}
@@ -106,9 +104,7 @@ def _node(peers: Peers, name: str, uri: str | None, names: Mapping[str, str]) ->
 
 
 def _is_source(row: list[Any]) -> bool:
-    return row[2] == "i" and (
-        len(row) <= 5 or bool(row[5])
-    )  # older clients do not report whether it is connected
+    return row[2] == "i" and (len(row) <= 5 or bool(row[5]))  # older clients do not report whether it is connected
 
 
 def _source(row: list[Any]) -> tuple[str, str]:

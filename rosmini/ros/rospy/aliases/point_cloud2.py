@@ -21,10 +21,7 @@ CODES = dict(enumerate("bBhHiIfd", start=1))
 
 
 def read_points(
-    cloud: Any,
-    field_names: Sequence[str] | None = None,
-    skip_nans: bool = False,
-    uvs: Iterable[tuple[int, int]] = (),
+    cloud: Any, field_names: Sequence[str] | None = None, skip_nans: bool = False, uvs: Iterable[tuple[int, int]] = ()
 ) -> Iterator[tuple[Any, ...]]:
     """Yield the points of a cloud row by row, each as a tuple of its fields in memory order.
 
@@ -38,16 +35,12 @@ def read_points(
 
     """
     if getattr(cloud, "_type", None) != "sensor_msgs/PointCloud2":
-        raise MessageException(
-            f"a {getattr(cloud, '_type', type(cloud).__name__)} is no sensor_msgs/PointCloud2"
-        )
+        raise MessageException(f"a {getattr(cloud, '_type', type(cloud).__name__)} is no sensor_msgs/PointCloud2")
     point = _layout(cloud.fields, field_names, big=cloud.is_bigendian)
     return _points(cloud, point, skip_nans, list(uvs))
 
 
-def _points(
-    cloud: Any, point: struct.Struct, skip_nans: bool, uvs: list[tuple[int, int]]
-) -> Iterator[tuple[Any, ...]]:
+def _points(cloud: Any, point: struct.Struct, skip_nans: bool, uvs: list[tuple[int, int]]) -> Iterator[tuple[Any, ...]]:
     data = bytes(cloud.data) if isinstance(cloud.data, (list, tuple)) else cloud.data
     step, row = cloud.point_step, cloud.row_step
     places = iter(uvs) if uvs else ((u, v) for v in range(cloud.height) for u in range(cloud.width))
@@ -64,10 +57,7 @@ def _points(
 
 
 def read_points_list(
-    cloud: Any,
-    field_names: Sequence[str] | None = None,
-    skip_nans: bool = False,
-    uvs: Iterable[tuple[int, int]] = (),
+    cloud: Any, field_names: Sequence[str] | None = None, skip_nans: bool = False, uvs: Iterable[tuple[int, int]] = ()
 ) -> list[Any]:
     """Return the points of a cloud as a list of named tuples; see :func:`read_points` for arguments and errors."""
     names = [field.name for field in cloud.fields] if field_names is None else field_names
@@ -106,9 +96,7 @@ def create_cloud(header: Any, fields: Sequence[Any], points: Iterable[Sequence[A
 
 def create_cloud_xyz32(header: Any, points: Iterable[Sequence[float]]) -> Any:
     """Return a cloud of points (x, y, z) [m] as 32-bit floats."""
-    return create_cloud(
-        header, [PointField(name, 4 * place, 7, 1) for place, name in enumerate("xyz")], points
-    )
+    return create_cloud(header, [PointField(name, 4 * place, 7, 1) for place, name in enumerate("xyz")], points)
 
 
 def _layout(fields: Iterable[Any], names: Sequence[str] | None, *, big: bool) -> struct.Struct:

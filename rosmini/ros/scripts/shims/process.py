@@ -62,9 +62,7 @@ def make_importlib(context: ScriptContext) -> ModuleType:
         """Import a module; a relative name is relative to ``package``."""
         if name.startswith("."):
             if not package:
-                raise TypeError(
-                    f"the 'package' argument is required to perform a relative import for {name!r}"
-                )
+                raise TypeError(f"the 'package' argument is required to perform a relative import for {name!r}")
             from importlib.util import resolve_name
 
             name = resolve_name(name, package)
@@ -127,12 +125,7 @@ def make_signal(context: ScriptContext) -> ModuleType:
         siginterrupt=lambda _signum, _flag: None,
     )
     if hasattr(real_signal, "SIGALRM"):
-        as_builtins(
-            module,
-            setitimer=alarm.set_timer,
-            getitimer=alarm.get_timer,
-            alarm=alarm.alarm,
-        )
+        as_builtins(module, setitimer=alarm.set_timer, getitimer=alarm.get_timer, alarm=alarm.alarm)
     return module
 
 

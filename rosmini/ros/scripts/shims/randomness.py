@@ -47,9 +47,7 @@ class NumpyRandom:
         self._namespace = vars(random)
         self._inner = vars(sys.modules["numpy.random.mtrand"])
         state = random.RandomState(seed)
-        names = [
-            name for name in dir(state) if not name.startswith("_") and callable(self._namespace.get(name))
-        ]
+        names = [name for name in dir(state) if not name.startswith("_") and callable(self._namespace.get(name))]
         self._own: dict[str, Any] = {name: getattr(state, name) for name in names}
         self._own.update(
             {name: state.random_sample for name in ("ranf", "sample", "random") if name in self._namespace}

@@ -129,9 +129,7 @@ def make_termios(context: ScriptContext) -> ModuleType:
     module: Any = ModuleType("termios") if real is None else copy_of(real)
     if real is None:
         module.error = type("error", (Exception,), {"__module__": "termios"})
-        for number, name in enumerate(
-            ("TCSANOW", "TCSADRAIN", "TCSAFLUSH", "TCIFLUSH", "TCOFLUSH", "TCIOFLUSH")
-        ):
+        for number, name in enumerate(("TCSANOW", "TCSADRAIN", "TCSAFLUSH", "TCIFLUSH", "TCOFLUSH", "TCIOFLUSH")):
             setattr(module, name, number % 3)
         module.ECHO, module.ICANON, module.VMIN, module.VTIME = 8, 2, 6, 5
 

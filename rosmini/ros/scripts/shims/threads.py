@@ -120,9 +120,7 @@ class LaneThread(locks.ForScript):
             return
         started = real_threading.Event()
         # Real ones are daemons: the end of the script waits for them, but the end of the host's process does not.
-        self._real = real_threading.Thread(
-            target=self._run_really, args=(name, ident, started), name=name, daemon=True
-        )
+        self._real = real_threading.Thread(target=self._run_really, args=(name, ident, started), name=name, daemon=True)
         self._real.start()
         started.wait()
 
@@ -220,9 +218,7 @@ class LaneThread(locks.ForScript):
     @property
     def busy(self) -> bool:
         """True if it may still run code of the script: False between two calls of a callback."""
-        return self.is_alive() and (
-            self._real is not None or (self._lane is not None and not self._lane.idle)
-        )
+        return self.is_alive() and (self._real is not None or (self._lane is not None and not self._lane.idle))
 
     def end(self) -> None:
         """Ask it to end at its blocking call, at the end of the script."""
@@ -321,9 +317,7 @@ def make_threading(context: ScriptContext) -> ModuleType:
         "setprofile": lambda _function: None,
         "getprofile": lambda: None,
         "stack_size": lambda size=0: 0 if size == 0 else real_threading.stack_size(),
-        "_register_atexit": lambda function, *args, **kwargs: threads.at_end.append(
-            lambda: function(*args, **kwargs)
-        ),
+        "_register_atexit": lambda function, *args, **kwargs: threads.at_end.append(lambda: function(*args, **kwargs)),
         "TIMEOUT_MAX": real_threading.TIMEOUT_MAX,
         "ThreadError": RuntimeError,
         "ExceptHookArgs": SimpleNamespace,
@@ -339,9 +333,7 @@ def make_thread(context: ScriptContext) -> ModuleType:
     module = ModuleType("_thread", real_thread.__doc__)
     lock: Any = context.thread_classes["Lock"]
 
-    def start_new_thread(
-        function: Callable[..., object], args: tuple[Any, ...], kwargs: Any = None, /
-    ) -> int:
+    def start_new_thread(function: Callable[..., object], args: tuple[Any, ...], kwargs: Any = None, /) -> int:
         thread = context.thread_class()(target=function, args=args, kwargs=kwargs, daemon=True)
         thread.start()
         return thread.ident or 0

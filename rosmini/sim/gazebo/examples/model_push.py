@@ -21,9 +21,7 @@ from rosmini.sim.gazebo.plugins import ModelPlugin
 class PushTags(Tags):
     """The tags of the plugin."""
 
-    velocity: str = tag(
-        "velocity", "0.3 0 0", "along x and y of the model, and its turning", unit="m/s, rad/s"
-    )
+    velocity: str = tag("velocity", "0.3 0 0", "along x and y of the model, and its turning", unit="m/s, rad/s")
     duration: float = tag("duration", math.inf, "how long it pushes", unit="s")
     rate: float = tag("updateRate", 100.0, "how often it pushes", unit="Hz")
 

@@ -90,9 +90,7 @@ class DepthCameraTags(CameraTags):
     farthest: float = tag("pointCloudCutoffMax", 5.0, "the farthest it measures", unit="m")
 
 
-class DepthCameraPlugin(
-    CameraPlugin, filename=("libgazebo_ros_openni_kinect.so", "libgazebo_ros_depth_camera.so")
-):
+class DepthCameraPlugin(CameraPlugin, filename=("libgazebo_ros_openni_kinect.so", "libgazebo_ros_depth_camera.so")):
     """Publishes a depth camera's images, depths and points."""
 
     def load(self, sensor: Sensor, sdf: Element) -> None:
@@ -157,9 +155,7 @@ class BumperTags(Tags):
     ignored: ClassVar[tuple[str, ...]] = ("updateRate",)
 
     topic: str = tag("bumperTopicName", "bumper_states", "where it is published")
-    frame: str = tag(
-        "frameName", "world", "the frame that places and forces are told in; here it is the world's"
-    )
+    frame: str = tag("frameName", "world", "the frame that places and forces are told in; here it is the world's")
 
 
 class BumperPlugin(SensorPlugin, filename="libgazebo_ros_bumper.so"):

@@ -58,9 +58,7 @@ class DiffDriveTags(DriveTags):
 
     ignored: ClassVar[tuple[str, ...]] = ("wheelTorque",)
 
-    odometry_source: str = tag(
-        "odometrySource", "world", "encoder: what the wheels' turns tell; world: the truth"
-    )
+    odometry_source: str = tag("odometrySource", "world", "encoder: what the wheels' turns tell; world: the truth")
     publish_odom_tf: bool = tag("publishOdomTF", True, "publish the transform between the two frames")
     publish_tf: bool = tag("publishTf", True, "publish the odometry at all")
     publish_wheel_tf: bool = tag("publishWheelTF", False, "publish the transforms of the wheels")
@@ -72,9 +70,7 @@ class DiffDriveTags(DriveTags):
     publish_joints: bool = tag("publishWheelJointState", False, "publish how far the wheels have turned")
     separation: float = tag("wheelSeparation", 0.34, "how far the wheels are apart", unit="m")
     diameter: float = tag("wheelDiameter", 0.15, "of the wheels", unit="m")
-    acceleration: float = tag(
-        "wheelAcceleration", 0.0, "how fast a rim's speed changes; 0: at once", unit="m/s2"
-    )
+    acceleration: float = tag("wheelAcceleration", 0.0, "how fast a rim's speed changes; 0: at once", unit="m/s2")
     left: str = tag("leftJoint", "left_joint", "the left wheel's joint")
     right: str = tag("rightJoint", "right_joint", "the right wheel's joint")
 
@@ -192,10 +188,7 @@ class WheelTransforms(Device):
         for joint in model.sdf.joints:
             if model.body is not None and joint.name in model.body.sides:
                 told = message_class("geometry_msgs/TransformStamped")()
-                told.header.frame_id, told.child_frame_id = (
-                    names.frame(joint.parent),
-                    names.frame(joint.child),
-                )
+                told.header.frame_id, told.child_frame_id = (names.frame(joint.parent), names.frame(joint.child))
                 self._message.transforms.append(told)
                 self._links.append(joint.child)
         self._publisher = host.node.publisher("/tf", type(self._message), queue_size=100)

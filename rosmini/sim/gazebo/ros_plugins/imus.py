@@ -66,9 +66,7 @@ class ImuSensorTags(Tags):
 
     topic: str = tag("topicName", "imu_data", "where it is published")
     frame: str = tag("frameName", "", "the frame of its messages; without it the link's")
-    noise: float = tag(
-        "gaussianNoise", 0.0, "standard deviation of rates and accelerations, on top of the sensor's"
-    )
+    noise: float = tag("gaussianNoise", 0.0, "standard deviation of rates and accelerations, on top of the sensor's")
     rate: float = tag("updateRateHZ", 1.0, "how often", unit="Hz")
     rpy: str = tag("rpyOffset", "0 0 0", "how the orientation that it tells is turned", unit="rad")
     from_start: bool = tag(
@@ -184,9 +182,7 @@ class ImuModelPlugin(ModelPlugin, filename="libgazebo_ros_imu.so"):
                 name=f"{self.name}/imu",
             )
         )
-        service = self.world.node.service(
-            names.topic(tags.service), service_class("std_srvs/Empty"), lambda _: {}
-        )
+        service = self.world.node.service(names.topic(tags.service), service_class("std_srvs/Empty"), lambda _: {})
         self.at_close(lambda: service.shutdown("the model was deleted"))
 
 
@@ -205,8 +201,7 @@ class ImuSensorPlugin(SensorPlugin, filename="libgazebo_ros_imu_sensor.so"):
         rate = rate_of(tags.rate, self.world.physics.time_step)
         own = sensor.element.find("imu")
         gyro, accel = (
-            (0.0, 0.0) if own is None else _noise(own, kind)
-            for kind in ("angular_velocity/z", "linear_acceleration/x")
+            (0.0, 0.0) if own is None else _noise(own, kind) for kind in ("angular_velocity/z", "linear_acceleration/x")
         )
         unit = ImuModel(
             (0.0, 0.0, 0.0),

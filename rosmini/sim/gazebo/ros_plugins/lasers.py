@@ -37,8 +37,7 @@ class LaserTags(Tags):
 
 
 class LaserPlugin(
-    SensorPlugin,
-    filename=("libgazebo_ros_laser.so", "libgazebo_ros_gpu_laser.so", "libgazebo_ros_ray_sensor.so"),
+    SensorPlugin, filename=("libgazebo_ros_laser.so", "libgazebo_ros_gpu_laser.so", "libgazebo_ros_ray_sensor.so")
 ):
     """Publishes a ray sensor's scans as `sensor_msgs/LaserScan`."""
 
@@ -93,9 +92,7 @@ def lidar_of(sensor: Sensor) -> LidarModel:
     samples = int(number(horizontal, "samples", 640)) * max(1, int(number(horizontal, "resolution", 1)))
     vertical = int(number(ray, "scan/vertical/samples", 1))
     if vertical > 1:
-        raise horizontal.error(
-            f"a laser of {vertical} layers is not simulated; <vertical> has one sample here"
-        )
+        raise horizontal.error(f"a laser of {vertical} layers is not simulated; <vertical> has one sample here")
     first, last = number(horizontal, "min_angle", 0.0), number(horizontal, "max_angle", 0.0)
     if samples == 1:  # a single ray looks ahead whatever the angles are, as in Gazebo
         first = last = 0.0

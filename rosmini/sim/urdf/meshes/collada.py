@@ -132,9 +132,7 @@ class _Reader:
                 return (r, g, b, a)
         return None
 
-    def geometry(
-        self, geometry: Element, place: Floats, bound: dict[str, Colour | None]
-    ) -> Iterator[Surface]:
+    def geometry(self, geometry: Element, place: Floats, bound: dict[str, Colour | None]) -> Iterator[Surface]:
         mesh = geometry.find("mesh")
         if mesh is None:
             return
@@ -171,14 +169,10 @@ class _Reader:
             normals = directions[self.column(piece, index, streams["NORMAL"], len(directions))]
         return _welded(points[corners], normals, faces), len(index)
 
-    def column(
-        self, piece: Element, index: NDArray[np.int64], stream: Element, count: int
-    ) -> NDArray[np.int64]:
+    def column(self, piece: Element, index: NDArray[np.int64], stream: Element, count: int) -> NDArray[np.int64]:
         found = index[:, _offset(stream)]
         if found.min() < 0 or found.max() >= count:
-            raise piece.error(
-                f"<p> counts to {found.max()}, but there are {count} of {stream.get('semantic')}"
-            )
+            raise piece.error(f"<p> counts to {found.max()}, but there are {count} of {stream.get('semantic')}")
         return np.asarray(found)
 
     def floats(self, source: Element) -> Floats:

@@ -95,9 +95,7 @@ def _text_stl(data: bytes, file: Path) -> Floats:
     corners = []
     for number, line in enumerate(data.decode("utf-8", "replace").lower().splitlines(), start=1):
         words = line.split()
-        corners += [
-            _three(words[i + 1 : i + 4], file, number) for i, word in enumerate(words) if word == "vertex"
-        ]
+        corners += [_three(words[i + 1 : i + 4], file, number) for i, word in enumerate(words) if word == "vertex"]
     if len(corners) % 3:
         raise MeshError(f"{len(corners)} corners are no triangles", file)
     return _finite(np.array(corners).reshape(-1, 3, 3), file)
@@ -119,9 +117,7 @@ def _obj(file: Path, part: str) -> Floats:
             places = [place - 1 if place > 0 else len(points) + place for place in places]
             if len(places) < 3 or not all(0 <= place < len(points) for place in places):
                 raise MeshError(
-                    f"the face {shown(' '.join(words[1:]))} is invalid: there are {len(points)} vertices",
-                    file,
-                    number,
+                    f"the face {shown(' '.join(words[1:]))} is invalid: there are {len(points)} vertices", file, number
                 )
             triangles += [(places[0], places[i], places[i + 1]) for i in range(1, len(places) - 1)]
     if not triangles:

@@ -11,13 +11,7 @@ import numpy as np
 from rosmini.core.errors import RosminiError
 from rosmini.core.tf import TransformException
 from rosmini.core.tf.rigid import matrix
-from rosmini.viz.rviz.camera_images import (
-    MAX_SHOWN,
-    image_pixels,
-    info_topic,
-    pin_hole,
-    resized,
-)
+from rosmini.viz.rviz.camera_images import MAX_SHOWN, image_pixels, info_topic, pin_hole, resized
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.display import Level, Shown
 from rosmini.viz.rviz.image_display import ImageDisplay, described

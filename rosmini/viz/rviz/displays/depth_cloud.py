@@ -33,24 +33,12 @@ class DepthCloud(PointsDisplay, plugin="rviz/DepthCloud"):
         Property("Depth Map Transport Hint", "raw", "transport of images; always raw"),
         Property("Color Image Topic", "", "the topic of colours; empty for none"),
         Property("Color Transport Hint", "raw", "transport of images; always raw"),
-        Property(
-            "Queue Size",
-            5,
-            "maximum number of messages that wait for their transform",
-            minimum=1,
-            maximum=1000,
-        ),
+        Property("Queue Size", 5, "maximum number of messages that wait for their transform", minimum=1, maximum=1000),
         Property("Topic Filter", True, "not used: all topics are offered"),
         Property("Auto Size", True, "make points as large as a pixel at their distance"),
         Property("Auto Size/Auto Size Factor", 1.0, "factor of that size", minimum=0.0001),
         Property("Occlusion Compensation", False, "keep points that nearer ones hide; not supported"),
-        Property(
-            "Occlusion Compensation/Occlusion Time-Out",
-            30.0,
-            "its duration",
-            unit="s",
-            minimum=0.0,
-        ),
+        Property("Occlusion Compensation/Occlusion Time-Out", 30.0, "its duration", unit="s", minimum=0.0),
     )
 
     def __init__(self, name: str = "", tree: Any = None) -> None:
@@ -105,9 +93,7 @@ class DepthCloud(PointsDisplay, plugin="rviz/DepthCloud"):
             return
         size = f"{image.width} x {image.height}"
         if (info.width, info.height) != (image.width, image.height):
-            raise DisplayError(
-                f"Depth image size and camera info don't match: {size} vs {info.width} x {info.height}"
-            )
+            raise DisplayError(f"Depth image size and camera info don't match: {size} vs {info.width} x {info.height}")
         k = np.asarray(info.K, dtype=float)
         if not (np.isfinite(k).all() and k[0] > 0 and k[4] > 0):
             raise DisplayError("CameraInfo/K has no focal lengths")
@@ -129,9 +115,7 @@ class DepthCloud(PointsDisplay, plugin="rviz/DepthCloud"):
 
     def _colours_of(self, received: Received) -> Any:
         """Return the colours (h, w, 3) closest in time to the depths; None if there are none."""
-        near = [
-            each for each in self._colours if abs(each.header.stamp.to_nsec() - received.stamp_ns) <= NEAR_NS
-        ]
+        near = [each for each in self._colours if abs(each.header.stamp.to_nsec() - received.stamp_ns) <= NEAR_NS]
         if not near:
             return None
         image = min(near, key=lambda each: abs(each.header.stamp.to_nsec() - received.stamp_ns))

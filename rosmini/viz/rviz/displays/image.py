@@ -20,9 +20,7 @@ class Image(ImageDisplay, plugin="rviz/Image"):
         Property("Normalize Range", True, "for an image of ranges: from its minimum to its maximum"),
         Property("Min Value", 0.0, "value of black if it is not normalised"),
         Property("Max Value", 1.0, "value of white if it is not normalised"),
-        Property(
-            "Median window", 5, "number of images over which the range is smoothed", minimum=1, maximum=1000
-        ),
+        Property("Median window", 5, "number of images over which the range is smoothed", minimum=1, maximum=1000),
     )
 
     def pane(self, image: Any, context: Context, shown: Sequence[Shown]) -> Pane | None:

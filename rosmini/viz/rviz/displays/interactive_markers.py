@@ -219,9 +219,7 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
             return "; ".join(_titles(handle.message.menu_entries).values())
         return _where(handle)
 
-    def drag(
-        self, marker: str, to: Sequence[float], control: str = "", start: Sequence[float] | None = None
-    ) -> str:
+    def drag(self, marker: str, to: Sequence[float], control: str = "", start: Sequence[float] | None = None) -> str:
         """Drag a control of a marker to a point (3) of the fixed frame, by default from the marker's origin.
 
         Without a name, drag the first control that reacts. Raises `DisplayError` if there is none, or if a point is
@@ -249,9 +247,7 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
         handle = self.handle(marker)
         entries = {one.id: one for one in handle.message.menu_entries}
         titles = _titles(handle.message.menu_entries)
-        found = (
-            entry if isinstance(entry, int) else next((i for i, each in titles.items() if each == entry), 0)
-        )
+        found = entry if isinstance(entry, int) else next((i for i, each in titles.items() if each == entry), 0)
         if found not in entries:
             raise DisplayError(
                 f"the menu of {marker!r} has no entry {entry!r:.60}; it has {', '.join(titles.values()) or 'none'}"
@@ -264,9 +260,7 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
             )
         self._say(Feedback.MENU_SELECT, handle, None, menu_entry_id=found)
 
-    def _say(
-        self, event: int, handle: Handle, control: Any, at: Floats | None = None, menu_entry_id: int = 0
-    ) -> None:
+    def _say(self, event: int, handle: Handle, control: Any, at: Floats | None = None, menu_entry_id: int = 0) -> None:
         """Publish feedback: in the marker's frame if it is locked to it, otherwise in the fixed frame."""
         if self._publisher is None or self._context is None:
             return
@@ -285,16 +279,8 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
             feedback.header.stamp = Time.from_nsec(stamp_ns)
         feedback.pose = pose_message(matrix_product(base, handle.pose))
         if at is not None:
-            x, y, z = (
-                matrix_product(inverse_matrix(handle.frame), np.append(at, 1.0))[:3]
-                if handle.is_locked
-                else at
-            )
-            feedback.mouse_point.x, feedback.mouse_point.y, feedback.mouse_point.z = (
-                float(x),
-                float(y),
-                float(z),
-            )
+            x, y, z = matrix_product(inverse_matrix(handle.frame), np.append(at, 1.0))[:3] if handle.is_locked else at
+            feedback.mouse_point.x, feedback.mouse_point.y, feedback.mouse_point.z = (float(x), float(y), float(z))
             feedback.mouse_point_valid = True
         self._publisher.publish(feedback)
 

@@ -27,9 +27,7 @@ class LaserScan(PointsDisplay, plugin="rviz/LaserScan"):
         if len(ranges) > MAX_BEAMS:
             raise DisplayError(f"a scan of {len(ranges)} ranges is too long: at most {MAX_BEAMS}")
         if not np.isfinite([scan.angle_min, scan.angle_increment, scan.range_min, scan.range_max]).all():
-            raise DisplayError(
-                "Message contained invalid floating point values (nans or infs) beside its ranges"
-            )
+            raise DisplayError("Message contained invalid floating point values (nans or infs) beside its ranges")
         hit = np.isfinite(ranges) & (ranges >= scan.range_min) & (ranges <= scan.range_max)
         angles = scan.angle_min + scan.angle_increment * np.flatnonzero(hit)
         reach = ranges[hit]

@@ -57,9 +57,7 @@ class Map(TopicDisplay, plugin="rviz/Map"):
             )
         if not 0 < info.resolution < 1e6:
             raise DisplayError(f"a resolution of {info.resolution:g} m is invalid")
-        self._cells: Pixels = (
-            np.array(received.message.data, dtype=np.int8).view(np.uint8).reshape(height, width)
-        )
+        self._cells: Pixels = np.array(received.message.data, dtype=np.int8).view(np.uint8).reshape(height, width)
         return True
 
     def _change(self, update: Any) -> None:
@@ -69,10 +67,7 @@ class Map(TopicDisplay, plugin="rviz/Map"):
         rows, columns = int(update.height), int(update.width)
         x, y = int(update.x), int(update.y)
         height, width = self._cells.shape
-        if (
-            not (0 <= x <= x + columns <= width and 0 <= y <= y + rows <= height)
-            or len(update.data) != rows * columns
-        ):
+        if not (0 <= x <= x + columns <= width and 0 <= y <= y + rows <= height) or len(update.data) != rows * columns:
             self.set_status(Level.ERROR, "Update", "Update area outside of original map area.")
             return
         fresh = np.array(update.data, dtype=np.int8).view(np.uint8).reshape(rows, columns)

@@ -35,13 +35,7 @@ class Marker(TopicDisplay, plugin="rviz/Marker"):
     topic_property = "Marker Topic"
     properties: ClassVar[tuple[Property, ...]] = (
         Property("Marker Topic", "visualization_marker", "the topic to subscribe to"),
-        Property(
-            "Queue Size",
-            100,
-            "maximum number of markers that wait for their transform",
-            minimum=0,
-            maximum=1000,
-        ),
+        Property("Queue Size", 100, "maximum number of markers that wait for their transform", minimum=0, maximum=1000),
         Property("Namespaces", Tree(), "which namespaces are shown; unlisted ones are shown too"),
     )
 
@@ -63,9 +57,7 @@ class Marker(TopicDisplay, plugin="rviz/Marker"):
     def subscribe_to_arrays(self, context: Context) -> None:
         """Subscribe to the topic of arrays."""
         try:
-            self.subscribe(
-                context, f"{self.topic}_array", ARRAY, lambda array: self.receive_array(array, context)
-            )
+            self.subscribe(context, f"{self.topic}_array", ARRAY, lambda array: self.receive_array(array, context))
         except RosminiError as error:
             self.fail("Topic", error)
 
@@ -177,9 +169,7 @@ class Marker(TopicDisplay, plugin="rviz/Marker"):
             text = f"Showing [{shown}] of [{len(self.markers)}] markers in [{len(names)}] namespaces"
             self.set_status(Level.OK, "Markers", text)
         if self._without_status:
-            self.set_status(
-                Level.WARN, "Others", f"{len(self._without_status)} more markers have warnings or errors"
-            )
+            self.set_status(Level.WARN, "Others", f"{len(self._without_status)} more markers have warnings or errors")
         else:
             self.clear_status("Others")
         if len(self.markers) >= MAX_MARKERS:

@@ -21,12 +21,8 @@ class Odometry(TopicDisplay, plugin="rviz/Odometry"):
     message = "nav_msgs/Odometry"
     history = "Keep"
     properties = (
-        Property(
-            "Position Tolerance", 0.1, "distance after which a new arrow is drawn", unit="m", minimum=0.0
-        ),
-        Property(
-            "Angle Tolerance", 0.1, "rotation after which a new arrow is drawn", unit="rad", minimum=0.0
-        ),
+        Property("Position Tolerance", 0.1, "distance after which a new arrow is drawn", unit="m", minimum=0.0),
+        Property("Angle Tolerance", 0.1, "rotation after which a new arrow is drawn", unit="rad", minimum=0.0),
         Property("Keep", 100, "number of arrows shown; 0 for all", minimum=0, maximum=10_000),
         *pose_properties("Shape/"),
         *COVARIANCE_PROPERTIES,

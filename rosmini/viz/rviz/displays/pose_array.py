@@ -55,7 +55,5 @@ class PoseArray(TopicDisplay, plugin="rviz/PoseArray"):
             if self["Shape"] == "Axes":
                 yield from axes(pose, self["Axes Length"], self["Axes Radius"])
             else:
-                sizes = (
-                    self[name] for name in ("Shaft Length", "Shaft Radius", "Head Length", "Head Radius")
-                )
+                sizes = (self[name] for name in ("Shaft Length", "Shaft Radius", "Head Length", "Head Radius"))
                 yield arrow(pose, colour, *sizes)

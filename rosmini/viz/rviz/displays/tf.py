@@ -31,16 +31,8 @@ class TF(Display, plugin="rviz/TF"):
         Property("Show Arrows", True, "an arrow from each frame to its parent"),
         Property("Marker Scale", 1.0, "scale of axes, names and arrows", minimum=0.0, maximum=1e4),
         Property("Marker Alpha", 1.0, "opacity", minimum=0.0, maximum=1.0),
-        Property(
-            "Update Interval",
-            0.0,
-            "not used: frames move with each picture",
-            unit="s",
-            minimum=0.0,
-        ),
-        Property(
-            "Frame Timeout", 15.0, "time without updates after which a frame is hidden", unit="s", minimum=1.0
-        ),
+        Property("Update Interval", 0.0, "not used: frames move with each picture", unit="s", minimum=0.0),
+        Property("Frame Timeout", 15.0, "time without updates after which a frame is hidden", unit="s", minimum=1.0),
         Property("Filter (whitelist)", "", "a regular expression; not supported"),
         Property("Filter (blacklist)", "", "a regular expression; not supported"),
         Property("Frames", Tree({"All Enabled": True}), "which frames are shown"),

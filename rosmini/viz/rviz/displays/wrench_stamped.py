@@ -30,9 +30,7 @@ class WrenchStamped(TopicDisplay, plugin="rviz/WrenchStamped"):
         Property("Torque Color", Colour(204, 204, 51), "colour of torques"),
         Property("Alpha", 1.0, "opacity", minimum=0.0, maximum=1.0),
         Property("Force Arrow Scale", 2.0, "length of an arrow per newton", unit="m/N", minimum=0.0),
-        Property(
-            "Torque Arrow Scale", 2.0, "length of an arrow per newton metre", unit="m/(N m)", minimum=0.0
-        ),
+        Property("Torque Arrow Scale", 2.0, "length of an arrow per newton metre", unit="m/(N m)", minimum=0.0),
         Property("Arrow Width", 0.5, "width of the arrows", unit="m", minimum=0.0),
         Property("Hide Small Values", True, "hide arrows that are shorter than wide"),
         Property("History Length", 1, "number of messages shown", minimum=1, maximum=100_000),
@@ -48,9 +46,7 @@ class WrenchStamped(TopicDisplay, plugin="rviz/WrenchStamped"):
             if length > (width if self["Hide Small Values"] else MIN_LENGTH):
                 colour = self[f"{name} Color"].rgba(self["Alpha"])
                 pose = matrix_product(place, towards(np.zeros(3), along))
-                yield arrow(
-                    matrix_product(pose, np.diag([length, width, width, 1.0])), colour, SHAFT, 0.05, HEAD, 0.1
-                )
+                yield arrow(matrix_product(pose, np.diag([length, width, width, 1.0])), colour, SHAFT, 0.05, HEAD, 0.1)
                 if name == "Torque":
                     yield from _turning(pose, length, width, colour)
 
@@ -59,9 +55,7 @@ def _turning(pose: Floats, length: float, width: float, colour: Any) -> Iterator
     """Yield seven eighths of a circle around the middle of an arrow along x of `pose`, with its arrowhead."""
     angles = np.arange(4, 33) * (math.tau / 32)
     radius = length / 4
-    circle = np.column_stack(
-        [np.full(len(angles), length / 2), radius * np.cos(angles), radius * np.sin(angles)]
-    )
+    circle = np.column_stack([np.full(len(angles), length / 2), radius * np.cos(angles), radius * np.sin(angles)])
     placed = matrix_product(circle, pose[:3, :3].T) + pose[:3, 3]
     yield Lines(placed, colour, 0.05 * width)
     head = towards(placed[-1], placed[-1] + pose[:3, 2])

@@ -5,12 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from rosmini.book.exercises.actionlib import _ends
-from rosmini.core.actionlib import (
-    SERVER_TRANSITIONS,
-    ActionServer,
-    SimpleActionServer,
-    Status,
-)
+from rosmini.core.actionlib import SERVER_TRANSITIONS, ActionServer, SimpleActionServer, Status
 from rosmini.core.graph import Graph
 from rosmini.msgs.actionlib.msg import TestAction, TestFeedback, TestResult, TwoIntsAction, TwoIntsResult
 
@@ -42,11 +37,7 @@ def _counter(
 
 
 def _one_step(status: Status) -> set[Status]:
-    return {
-        table[status]
-        for table in SERVER_TRANSITIONS.values()
-        if status in table and table[status].is_terminal
-    }
+    return {table[status] for table in SERVER_TRANSITIONS.values() if status in table and table[status].is_terminal}
 
 
 def _jumper(graph: Graph) -> None:

@@ -26,9 +26,7 @@ MISTAKES = {
     "drivers": [
         lambda: lambda state, topic: dict(state[0])[topic],
         lambda: (
-            lambda state, topic: sorted(
-                n for part in state for name, nodes in part if name == topic for n in nodes
-            )
+            lambda state, topic: sorted(n for part in state for name, nodes in part if name == topic for n in nodes)
         ),
     ],
     "ended": [lambda: _once, lambda: lambda launches: launches[-1] if launches else []],

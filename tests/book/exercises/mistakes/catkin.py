@@ -82,10 +82,7 @@ def round_and_round() -> Callable[[Mapping[str, Sequence[str]]], list[str]]:
 
 def with_what_is_built_already() -> Callable[[Mapping[str, Sequence[str]]], list[str]]:
     def build_order(needs: Mapping[str, Sequence[str]]) -> list[str]:
-        return [
-            *{other for others in needs.values() for other in others} - {*needs},
-            *blind_to_circles()(needs),
-        ]
+        return [*{other for others in needs.values() for other in others} - {*needs}, *blind_to_circles()(needs)]
 
     return build_order
 

@@ -57,9 +57,7 @@ MODELS = ("burger", "waffle", "waffle_pi")
 
 
 def _mending(
-    ends: tuple[str, ...] = ("", "/"),
-    models: tuple[str, ...] = MODELS,
-    own: tuple[str, ...] = ("", "localhost"),
+    ends: tuple[str, ...] = ("", "/"), models: tuple[str, ...] = MODELS, own: tuple[str, ...] = ("", "localhost")
 ) -> Callable[[], Any]:
     def to_mend(environment: dict[str, str]) -> str | None:
         if environment.get("ROS_MASTER_URI", "") not in [f"http://robot:11311{end}" for end in ends]:

@@ -39,9 +39,7 @@ def _but(right: str, old: str, new: str) -> Callable[[], Script]:
     return lambda: Script("answer.py", right.replace(old, new))
 
 
-def _cheapest(
-    *, above: bool = False, metres: bool = False, dearest: bool = False, of_large: bool = False
-) -> Any:
+def _cheapest(*, above: bool = False, metres: bool = False, dearest: bool = False, of_large: bool = False) -> Any:
     def made() -> Any:
         def cheapest(frontiers: Any, potential: float, gain: float, least: float, r: float) -> Any:
             def cost(i: int) -> float:

@@ -43,13 +43,7 @@ MISTAKES = {
     "users": [
         lambda: ["turtlebot3_gazebo"],
         lambda: ["turtlebot3_gazebo", "turtlebot3_bringup", "turtlebot3_navigation", "turtlebot3_slam"],
-        lambda: [
-            "my_robot",
-            "turtlebot3_bringup",
-            "turtlebot3_gazebo",
-            "turtlebot3_navigation",
-            "turtlebot3_slam",
-        ],
+        lambda: ["my_robot", "turtlebot3_bringup", "turtlebot3_gazebo", "turtlebot3_navigation", "turtlebot3_slam"],
         lambda: "turtlebot3_bringup",
     ],
     "message_definition": [

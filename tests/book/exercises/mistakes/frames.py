@@ -25,22 +25,18 @@ MISTAKES = {
         lambda: lambda _buffer, scan: min(scan.ranges),
         lambda: (
             lambda buffer, scan: min(
-                math.hypot(x, y)
-                for x, y, _ in buffer.transform_points(scan_points(scan), "front_laser", "base_link")
+                math.hypot(x, y) for x, y, _ in buffer.transform_points(scan_points(scan), "front_laser", "base_link")
             )
         ),
         lambda: _points,
         lambda: lambda buffer, scan: min(math.hypot(x, y, z) for x, y, z in _points(buffer, scan)),
         lambda: (
             lambda buffer, scan: min(
-                math.hypot(x, y)
-                for x, y, _ in buffer.transform_points(scan_points(scan), "base_link", "front_laser")
+                math.hypot(x, y) for x, y, _ in buffer.transform_points(scan_points(scan), "base_link", "front_laser")
             )
         ),
         lambda: lambda buffer, scan: min(math.hypot(x, y) for x, y, _ in _points(buffer, scan)),
-        lambda: (
-            lambda buffer, scan: min((math.hypot(x, y) for x, y, _ in _points(buffer, scan)), default=0.0)
-        ),
+        lambda: lambda buffer, scan: min((math.hypot(x, y) for x, y, _ in _points(buffer, scan)), default=0.0),
     ],
     "map_to_odom": [
         lambda: (
@@ -55,9 +51,7 @@ MISTAKES = {
     ],
     "moved": [
         lambda: lambda buffer, _start, _end: buffer.lookup_transform("odom", "base").transform.translation.x,
-        lambda: (
-            lambda buffer, _start, end: buffer.lookup_transform("odom", "base", end).transform.translation.x
-        ),
+        lambda: lambda buffer, _start, end: buffer.lookup_transform("odom", "base", end).transform.translation.x,
         lambda: (
             lambda buffer, start, end: (
                 buffer.lookup_transform("odom", "base", end).transform.translation.x

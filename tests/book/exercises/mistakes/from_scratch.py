@@ -64,11 +64,7 @@ def script(right: str, old: str, new: str = "") -> Callable[[], Script]:
 
 
 MISTAKES = {
-    "cures": [
-        lambda: {1: "c", 2: "a", 3: "b", 4: "e"},
-        lambda: {1: "c", 2: "a"},
-        lambda: "caeb",
-    ],
+    "cures": [lambda: {1: "c", 2: "a", 3: "b", 4: "e"}, lambda: {1: "c", 2: "a"}, lambda: "caeb"],
     "package_with_types": [
         wrong(CMAKE, " message_generation"),
         wrong(CMAKE, "Spot.msg", "Spots.msg"),

@@ -86,13 +86,7 @@ def _recursive() -> Any:
 
 
 MISTAKES: dict[str, list[Callable[[], Any]]] = {
-    "sizes": [
-        _sizes(corners=False),
-        _sizes(rising=True),
-        _sizes(destroys=True),
-        _recursive,
-        lambda: len,
-    ],
+    "sizes": [_sizes(corners=False), _sizes(rising=True), _sizes(destroys=True), _recursive, lambda: len],
     "clicker": [
         _but(CLICKER, "(-2, 2), (-2, -2)", "(-2, 2)"),
         _but(CLICKER, "(-2, -2), (0, 0)]", "(-2, -2)]"),

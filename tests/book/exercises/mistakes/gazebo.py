@@ -132,9 +132,7 @@ MISTAKES = {
         _changed(topicName="<topicName>scan</topicName>"),
         lambda: lambda text: _changed()()(text).replace("<stddev>0.01</stddev>", "<stddev>0.0</stddev>"),
         lambda: (
-            lambda text: _changed()()(text).replace(
-                "<update_rate>5</update_rate>", "<update_rate>10</update_rate>"
-            )
+            lambda text: _changed()()(text).replace("<update_rate>5</update_rate>", "<update_rate>10</update_rate>")
         ),
         lambda: lambda text: _changed()()(text).replace("</sensor>", ""),
         lambda: lambda _text: 181,

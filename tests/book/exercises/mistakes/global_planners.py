@@ -69,16 +69,7 @@ MISTAKES = {
         lambda: "",
         lambda: ["..........", "S::::::::G", ".........."],
     ],
-    "tuned": [
-        lambda: 0.01,
-        lambda: 0.3,
-        lambda: 2.0,
-        lambda: 3.0,
-        lambda: 5.0,
-        lambda: 0,
-        lambda: 66,
-        lambda: "0.55",
-    ],
+    "tuned": [lambda: 0.01, lambda: 0.3, lambda: 2.0, lambda: 3.0, lambda: 5.0, lambda: 0, lambda: 66, lambda: "0.55"],
     "far": [
         _but("0.5)", "0.0)"),
         _but("make_plan(PoseStamped(),", "make_plan(goal,"),
@@ -87,9 +78,7 @@ MISTAKES = {
         _but("length if plan else -1.0", "len(plan) if plan else -1.0"),
         _but("hypot(b.x - a.x, b.y - a.y)", "abs(b.x - a.x) + abs(b.y - a.y)"),
         _but("    distance.publish(length if plan else -1.0)\n", ""),
-        _but(
-            "    distance.publish(length if plan else -1.0)", "    if plan:\n        distance.publish(length)"
-        ),
+        _but("    distance.publish(length if plan else -1.0)", "    if plan:\n        distance.publish(length)"),
         _but("zip(points, points[1:])", "[(points[0], points[-1])] if points else []"),
     ],
 }

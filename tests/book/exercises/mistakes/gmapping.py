@@ -61,9 +61,7 @@ def _data(hits: Any, visits: Any, occ_thresh: float) -> Any:
     return cells
 
 
-def _survivors(
-    weights: Any, start: float, *, share: float = 0.5, side: Any = "right", step: float = 1.0
-) -> Any:
+def _survivors(weights: Any, start: float, *, share: float = 0.5, side: Any = "right", step: float = 1.0) -> Any:
     weights = np.asarray(weights)
     count = len(weights)
     if 1 / (weights**2).sum() >= share * count:

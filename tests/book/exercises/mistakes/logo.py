@@ -17,8 +17,7 @@ STAIRS = (
 )
 
 VISIT = (
-    "to visit :places\nforeach :places [setheading towards ? forward distance ?]\n"
-    "setheading towards [0 0] home\nend"
+    "to visit :places\nforeach :places [setheading towards ? forward distance ?]\nsetheading towards [0 0] home\nend"
 )
 
 TINY = """
@@ -72,11 +71,7 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
         _text(STAIRS, "if :count = 0 [stop]\n", ""),
         _text(STAIRS, "0.75", "0.7"),
         _text(STAIRS, ":count = 0", ":count = 1"),
-        _text(
-            STAIRS,
-            "forward :size right 90\nforward :size left 90",
-            "right 90 forward :size left 90\nforward :size",
-        ),
+        _text(STAIRS, "forward :size right 90\nforward :size left 90", "right 90 forward :size left 90\nforward :size"),
         lambda: (
             "; stairs by stairs\nto stairs :count :size\nrepeat :count [forward :size right 90 forward :size left 90 "
             'make "size :size * 0.75]\nend'

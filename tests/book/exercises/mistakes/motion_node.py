@@ -113,9 +113,7 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
         _script(WALL, "        break", "        pass"),
         _script(WALL, "< 0.02", "< 0.39"),
         _script(
-            WALL,
-            "math.hypot(pose.x - before.x, pose.y - before.y) < 0.02",
-            "not 0.1 < pose.x < 11 or pose.y > 11",
+            WALL, "math.hypot(pose.x - before.x, pose.y - before.y) < 0.02", "not 0.1 < pose.x < 11 or pose.y > 11"
         ),
         _script(WALL, "rospy.loginfo(", "print("),
         _script(WALL, "    publisher.publish(command)", "    pass"),

@@ -87,10 +87,7 @@ def _parameters(*kinds: str, sides: tuple[float, ...] = (4.0, 1.0), layer: Any =
     layers = ["obstacle_layer"] if layer is None else layer
     return lambda: {
         "recovery_behaviors": [{"name": name, "type": kind} for name, kind in zip(names, kinds, strict=True)],
-        **{
-            name: {"reset_distance": side, "layer_names": layers}
-            for name, side in zip(names, sides, strict=False)
-        },
+        **{name: {"reset_distance": side, "layer_names": layers} for name, side in zip(names, sides, strict=False)},
     }
 
 
@@ -109,11 +106,7 @@ MISTAKES = {
         _but(COURIER, "    client.wait_for_result()\n", ""),
         _but(COURIER, "client.get_state() == actionlib.GoalStatus.SUCCEEDED", "client.wait_for_result()"),
         _but(COURIER, "client.get_goal_status_text()", '"failed"'),
-        _but(
-            COURIER,
-            "get_goal_status_text())\n",
-            "get_goal_status_text())\n        rospy.signal_shutdown('')\n",
-        ),
+        _but(COURIER, "get_goal_status_text())\n", "get_goal_status_text())\n        rospy.signal_shutdown('')\n"),
         _but(COURIER, "target_pose=pose", ""),
     ],
     "keep_right": [

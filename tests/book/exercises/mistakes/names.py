@@ -29,10 +29,7 @@ def _resolve(
 
 
 def _reporter(
-    battery: str = "battery",
-    report: str = "/report",
-    text: str = "{ns}: {value:.1f} V",
-    name: str = "reporter",
+    battery: str = "battery", report: str = "/report", text: str = "{ns}: {value:.1f} V", name: str = "reporter"
 ) -> Callable[[], Any]:
     def start(graph: Graph, namespace: str) -> None:
         node = graph.node(name, namespace=namespace)
@@ -53,9 +50,7 @@ def _without_namespace(graph: Graph, _: str) -> None:
 # ---- find_file: find the file ----
 
 
-def _finder(
-    *, manifest: bool = True, first_only: bool = True, check: bool = True, cut: int = 1
-) -> Callable[[], Any]:
+def _finder(*, manifest: bool = True, first_only: bool = True, check: bool = True, cut: int = 1) -> Callable[[], Any]:
     def find(url: str, folders: list[Path]) -> Path | None:
         name, *rest = url.removeprefix("package://").split("/", cut)
         for folder in folders:

@@ -57,9 +57,7 @@ def _but(right: str, old: str, new: str) -> Callable[[], Script]:
     return lambda: Script("answer.py", right.replace(old, new))
 
 
-def goal_of(
-    press: Any, release: Any, half: float = 2.0, frame: str = "map", at: str = "press"
-) -> PoseStamped:
+def goal_of(press: Any, release: Any, half: float = 2.0, frame: str = "map", at: str = "press") -> PoseStamped:
     goal = PoseStamped()
     goal.header.frame_id = frame
     goal.pose.position.x, goal.pose.position.y = press if at == "press" else release
@@ -85,16 +83,10 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
     ],
     "home": [
         _but(HOME, "begin.header.frame_id", '"map"'),
-        _but(
-            HOME, "    goal.pose = begin.pose.pose\n", "    goal.pose.position = begin.pose.pose.position\n"
-        ),
+        _but(HOME, "    goal.pose = begin.pose.pose\n", "    goal.pose.position = begin.pose.pose.position\n"),
         _but(HOME, "    goals.publish(goal)\n", ""),
         _but(HOME, "rospy.spin()", "on_home(None)\nrospy.spin()"),
-        _but(
-            HOME,
-            "    goal = PoseStamped()\n",
-            "    goal = PoseStamped()\n    rospy.signal_shutdown('home')\n",
-        ),
+        _but(HOME, "    goal = PoseStamped()\n", "    goal = PoseStamped()\n    rospy.signal_shutdown('home')\n"),
         _but(
             HOME,
             'begin = rospy.wait_for_message("amcl_pose", PoseWithCovarianceStamped)\n',
@@ -108,9 +100,7 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
         _but(WAITER, "rospy.Duration(5)", "rospy.Duration(8)"),
         _but(WAITER, "        client.cancel_goal()\n        client.wait_for_result()\n", "        break\n"),
         _but(WAITER, "    goal.target_pose.pose.orientation.w = 1\n", ""),
-        _but(
-            WAITER, "        client.wait_for_result()\n", "        client.wait_for_result()\nrospy.spin()\n"
-        ),
+        _but(WAITER, "        client.wait_for_result()\n", "        client.wait_for_result()\nrospy.spin()\n"),
         _but(WAITER, "(1, 0), (2, 1)", "(2, 1), (1, 0)"),
     ],
 }

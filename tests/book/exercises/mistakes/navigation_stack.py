@@ -60,11 +60,5 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
         _goal('"move_base_simple/goal"', '"move_base/goal"'),
         lambda: "rostopic pub -1 /move_base_simple/goal",
     ],
-    "length": [
-        lambda: straight,
-        lambda: between_ends,
-        lambda: along_x,
-        lambda: len,
-        lambda: 6.0,
-    ],
+    "length": [lambda: straight, lambda: between_ends, lambda: along_x, lambda: len, lambda: 6.0],
 }

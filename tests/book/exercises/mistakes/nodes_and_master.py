@@ -112,12 +112,7 @@ MISTAKES = {
         wrong("gentle.py", GENTLE, "wish.linear.x / 2", "0.1"),
         wrong("gentle.py", GENTLE, '"wish"', '"wishes"'),
         wrong("gentle.py", GENTLE, '"cmd_vel"', '"wish_half"'),
-        wrong(
-            "gentle.py",
-            GENTLE,
-            "rospy.spin()",
-            "while not rospy.is_shutdown():\n    cmd_vel.publish(Twist())",
-        ),
+        wrong("gentle.py", GENTLE, "rospy.spin()", "while not rospy.is_shutdown():\n    cmd_vel.publish(Twist())"),
         wrong("gentle.py", GENTLE, "rospy.spin()", ""),
     ],
     "introduce": [

@@ -54,9 +54,7 @@ def _script(old: str, new: str) -> Callable[[], Script]:
     return lambda: Script("answer.py", TRAIL.replace(old, new))
 
 
-def _mend(
-    frame: str = "odom", laser: str = "/scan", way: str = "/odom", *, on: bool = True
-) -> Callable[[], Any]:
+def _mend(frame: str = "odom", laser: str = "/scan", way: str = "/odom", *, on: bool = True) -> Callable[[], Any]:
     def mend(scene: Any) -> None:
         scene.fixed_frame = frame
         scene["Laser"]["Topic"] = laser

@@ -22,13 +22,7 @@ def _picture_but(old: str, new: str) -> Callable[[], Any]:
 
 
 def _counter(
-    *,
-    first: int = 0,
-    step: int = 1,
-    cleared: int = 0,
-    name: str = "counter",
-    success: bool = True,
-    clears: bool = True,
+    *, first: int = 0, step: int = 1, cleared: int = 0, name: str = "counter", success: bool = True, clears: bool = True
 ) -> Callable[[], Any]:
     def start(graph: Graph) -> None:
         node = graph.node(name)

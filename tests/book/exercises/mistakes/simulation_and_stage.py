@@ -91,12 +91,8 @@ MISTAKES = {
     ],
     "world_velocity": [
         _velocity(lambda vx, vy, _: (vx, vy)),
-        _velocity(
-            lambda vx, vy, a: (math.cos(a) * vx - math.sin(a) * vy, math.sin(a) * vx + math.cos(a) * vy)
-        ),
-        _velocity(
-            lambda vx, vy, a: (math.cos(a) * vx + math.sin(a) * vy, math.sin(a) * vx - math.cos(a) * vy)
-        ),
+        _velocity(lambda vx, vy, a: (math.cos(a) * vx - math.sin(a) * vy, math.sin(a) * vx + math.cos(a) * vy)),
+        _velocity(lambda vx, vy, a: (math.cos(a) * vx + math.sin(a) * vy, math.sin(a) * vx - math.cos(a) * vy)),
         _velocity(lambda vx, vy, _: (math.hypot(vx, vy), 0.0)),
         lambda: lambda vx, vy, _heading: (vx, vy),
     ],

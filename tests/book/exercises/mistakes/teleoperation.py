@@ -16,9 +16,7 @@ if TYPE_CHECKING:
 # ---- keys_for: which keys ----
 
 
-def _keys(
-    ahead: Callable[[float], float], names: str = "wxad", *, swapped: bool = False
-) -> Callable[[], Any]:
+def _keys(ahead: Callable[[float], float], names: str = "wxad", *, swapped: bool = False) -> Callable[[], Any]:
     def keys_for(v: float, w: float) -> str:
         parts = []
         for value, more, less in ((v / 0.01, names[0], names[1]), (w / 0.1, names[2], names[3])):
@@ -54,9 +52,7 @@ def _stick(joy: Any) -> Velocity:
 # ---- lock: a lock ----
 
 
-def _lock(
-    *, zero: bool = True, holds: bool = True, opens: bool = True, resumes: bool = False
-) -> Callable[[], Any]:
+def _lock(*, zero: bool = True, holds: bool = True, opens: bool = True, resumes: bool = False) -> Callable[[], Any]:
     def start(graph: Graph) -> None:
         node = graph.node("lock")
         cmd_vel = node.publisher("cmd_vel", message_class("geometry_msgs/Twist"), queue_size=1)
@@ -83,9 +79,7 @@ def _lock(
 # ---- where_now: where is it now ----
 
 
-def _predicted(
-    step: Callable[[Pose, float, float, float], Pose], *, backwards: bool = False
-) -> Callable[[], Any]:
+def _predicted(step: Callable[[Pose, float, float, float], Pose], *, backwards: bool = False) -> Callable[[], Any]:
     def where_now(seen: Pose, commands: list[tuple[float, float, float]]) -> Pose:
         pose = seen
         for v, w, seconds in commands[::-1] if backwards else commands:
@@ -104,11 +98,7 @@ def _arc_only(pose: Pose, v: float, w: float, t: float) -> Pose:
     x, y, heading = pose
     after = heading + w * t
     r = v / w
-    return (
-        x + r * (math.sin(after) - math.sin(heading)),
-        y - r * (math.cos(after) - math.cos(heading)),
-        after,
-    )
+    return (x + r * (math.sin(after) - math.sin(heading)), y - r * (math.cos(after) - math.cos(heading)), after)
 
 
 MISTAKES = {

@@ -34,9 +34,7 @@ def _fields(
 # ---- hear: a subscriber ----
 
 
-def _hear(
-    *, register: bool = True, read_all: bool = True, header_is_message: bool = False
-) -> Callable[[], Any]:
+def _hear(*, register: bool = True, read_all: bool = True, header_is_message: bool = False) -> Callable[[], Any]:
     """A subscriber that looks for no error, and may have further faults."""
 
     def hear(master: Any, connect: Any, topic: str, kind: str, md5sum: str) -> bytes:
@@ -70,9 +68,7 @@ def _hear(
 # ---- decide: stop, in bytes ----
 
 
-def _decide(
-    limit: float = 0.5, speed: float = 0.2, turn: float = 0.0, form: str = "<I6d"
-) -> Callable[[], Any]:
+def _decide(limit: float = 0.5, speed: float = 0.2, turn: float = 0.0, form: str = "<I6d") -> Callable[[], Any]:
     def decide(scan: bytes) -> bytes:
         (ahead,) = struct.unpack_from("<f", scan, 57)
         return struct.pack(form, 48, speed if ahead > limit else 0.0, 0.0, 0.0, 0.0, 0.0, turn)

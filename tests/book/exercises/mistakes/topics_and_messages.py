@@ -27,9 +27,7 @@ def _board(
             if not keep:
                 notes.clear()
             notes[message._connection_header["callerid"]] = message.data
-            board.publish(
-                between.join(f"{who}: {notes[who]}" for who in (sorted(notes) if ordered else notes))
-            )
+            board.publish(between.join(f"{who}: {notes[who]}" for who in (sorted(notes) if ordered else notes)))
 
         node.subscriber("note", String, pin)
 

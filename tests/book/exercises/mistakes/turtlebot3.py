@@ -17,12 +17,7 @@ if TYPE_CHECKING:
 
 
 def _speed(
-    distance: float,
-    period: float = 0.2,
-    acceleration: float = 1.0,
-    *,
-    halves: float = 2.0,
-    most: float = 0.22,
+    distance: float, period: float = 0.2, acceleration: float = 1.0, *, halves: float = 2.0, most: float = 0.22
 ) -> float:
     a, t = acceleration, period
     return min(most, a * (math.sqrt(t * t + halves * distance / a) - t))
@@ -127,15 +122,9 @@ MISTAKES = {
         _calibration(lambda way, turn: 1000 * way / turn),
     ],
     "safe_speed": [
-        lambda: (
-            lambda distance, period=0.2, acceleration=1.0: _speed(distance, period, acceleration, most=9.0)
-        ),
-        lambda: (
-            lambda distance, period=0.2, acceleration=1.0: _speed(distance, period, acceleration, halves=1.0)
-        ),
-        lambda: (
-            lambda distance, _period=0.2, acceleration=1.0: min(0.22, math.sqrt(2 * acceleration * distance))
-        ),
+        lambda: lambda distance, period=0.2, acceleration=1.0: _speed(distance, period, acceleration, most=9.0),
+        lambda: lambda distance, period=0.2, acceleration=1.0: _speed(distance, period, acceleration, halves=1.0),
+        lambda: lambda distance, _period=0.2, acceleration=1.0: min(0.22, math.sqrt(2 * acceleration * distance)),
         lambda: lambda distance, period=0.2, _acceleration=1.0: min(0.22, distance / period),
         lambda: lambda distance, _period=0.2, acceleration=1.0: _speed(distance, 0.2, acceleration),
         lambda: lambda distance, period=0.2, _acceleration=1.0: _speed(distance, period, 1.0),

@@ -61,12 +61,7 @@ MISTAKES = {
         wrong("greet.py", GREET, ", latch=True"),
         wrong("greet.py", GREET, '"greeting"', '"greetings"'),
         wrong("greet.py", GREET, '"hello"', '"hallo"'),
-        wrong(
-            "greet.py",
-            GREET,
-            "rospy.spin()",
-            "while True:\n    rospy.sleep(0.5)\n    greeting.publish('hello')",
-        ),
+        wrong("greet.py", GREET, "rospy.spin()", "while True:\n    rospy.sleep(0.5)\n    greeting.publish('hello')"),
         wrong("greet.py", GREET, "rospy.spin()", ""),
         wrong(
             "greet.py",

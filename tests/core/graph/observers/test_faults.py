@@ -27,9 +27,7 @@ def count(graph, *, to=("listener",), messages=50, period=0.1):
         node.subscriber(
             "count",
             Int32,
-            lambda message, name=name: heard[name].append(
-                (message.data, round(graph.now().to_sec() - 1000, 3))
-            ),
+            lambda message, name=name: heard[name].append((message.data, round(graph.now().to_sec() - 1000, 3))),
         )
     counter = graph.node("counter")
     publisher = counter.publisher("count", Int32)
@@ -147,18 +145,12 @@ def test_connections_that_come_later_have_it_too(graph):
 
 
 @given(
-    lose=st.floats(0, 1),
-    double=st.floats(0, 1),
-    delay=st.floats(0, 2),
-    jitter=st.floats(0.001, 2),
-    seed=st.integers(0),
+    lose=st.floats(0, 1), double=st.floats(0, 1), delay=st.floats(0, 2), jitter=st.floats(0.001, 2), seed=st.integers(0)
 )
 def test_every_message_arrives_once_or_twice_or_is_lost(lose, double, delay, jitter, seed):
     with Graph(rosout=False) as graph:
         heard, go = count(graph, messages=20)
-        fault = graph.faults.disturb(
-            "/count", lose=lose, double=double, delay=delay, jitter=jitter, seed=seed % 2**63
-        )
+        fault = graph.faults.disturb("/count", lose=lose, double=double, delay=delay, jitter=jitter, seed=seed % 2**63)
         go()
         found = numbers(heard["listener"])
         assert fault.messages == 20
@@ -254,8 +246,7 @@ def test_names_that_nobody_knows_are_answered_with_the_nearest(graph):
 
 
 @pytest.mark.parametrize(
-    "wrong",
-    [{}, {"lose": 1.1}, {"double": -0.1}, {"delay": -1}, {"jitter": float("nan")}, {"lose": float("nan")}],
+    "wrong", [{}, {"lose": 1.1}, {"double": -0.1}, {"delay": -1}, {"jitter": float("nan")}, {"lose": float("nan")}]
 )
 def test_what_makes_no_sense_is_refused(graph, wrong):
     count(graph)
@@ -286,7 +277,4 @@ def test_a_lost_message_is_recorded_as_lost(graph):
     _, go = count(graph, messages=2)
     graph.faults.disturb("/count", lose=1)
     go()
-    assert [what for *_, what, _ in recording.calls("/count")][-2:] == [
-        "/count: 0 (lost)",
-        "/count: 1 (lost)",
-    ]
+    assert [what for *_, what, _ in recording.calls("/count")][-2:] == ["/count: 0 (lost)", "/count: 1 (lost)"]

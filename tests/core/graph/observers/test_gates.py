@@ -13,9 +13,7 @@ def passed(fault: TopicFault, count: int, peer: str = "/talker") -> list[int]:
     scheduler = Scheduler()
     found: list[int] = []
     Gate(fault, scheduler, "/listener").pass_on(
-        [Int32(number) for number in range(count)],
-        peer,
-        lambda messages: found.extend(one.data for one in messages),
+        [Int32(number) for number in range(count)], peer, lambda messages: found.extend(one.data for one in messages)
     )
     scheduler.run()
     return found

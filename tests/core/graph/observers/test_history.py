@@ -158,11 +158,7 @@ def test_waiting_for_a_message_makes_it_the_cause(graph):
     talker.publish("hello")
     graph.run(0.1)
     (event,) = recording.history.last("/echo")
-    assert [kind for kind, *_ in chain(recording.history, event)] == [
-        "publication",
-        "delivery",
-        "publication",
-    ]
+    assert [kind for kind, *_ in chain(recording.history, event)] == ["publication", "delivery", "publication"]
 
 
 def test_a_loop_of_its_own_has_no_cause_but_what_it_had_heard_is_known(graph):
@@ -255,11 +251,7 @@ def test_what_a_callback_hands_to_another_lane_has_the_same_cause(graph):
     orders.publish("go")
     graph.run(1)
     history = recording.history
-    assert [kind for kind, *_ in chain(history, history.last("/work")[0])] == [
-        "publication",
-        "delivery",
-        "publication",
-    ]
+    assert [kind for kind, *_ in chain(history, history.last("/work")[0])] == ["publication", "delivery", "publication"]
     assert history.last("/ticks")[0].cause is None
 
 
@@ -272,7 +264,5 @@ def test_a_latched_message_and_one_for_a_single_peer_are_known_where_they_arrive
     graph.run(0.1)
     stamped.publish_to("/late", LaserScan())
     graph.run(0.1)
-    delivered = [
-        event for event in recording.events if event.kind == "delivery" and event.about == "/stamped"
-    ]
+    delivered = [event for event in recording.events if event.kind == "delivery" and event.about == "/stamped"]
     assert [event.count for event in delivered] == [1, 2]

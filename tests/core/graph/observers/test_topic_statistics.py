@@ -41,9 +41,7 @@ def enabled() -> Any:
 def test_without_the_parameter_nothing_is_published() -> None:
     with Graph() as graph:
         assert heard_in(graph, 5, 10, String("hello")) == []
-        assert "/statistics" not in [
-            name for name, _ in graph.node("other").master.ask("getPublishedTopics", "")
-        ]
+        assert "/statistics" not in [name for name, _ in graph.node("other").master.ask("getPublishedTopics", "")]
 
 
 def test_windows_name_the_connection_and_measure_traffic_and_period(enabled: Graph) -> None:

@@ -16,9 +16,7 @@ from rosmini.ros.introspection.wtf.survey import Node, Survey
 Ends = Mapping[str, tuple[str, str]]
 
 
-def node(
-    name: str, published: dict[str, str], subscribed: dict[str, str], *sources: str, host: str = "here"
-) -> Node:
+def node(name: str, published: dict[str, str], subscribed: dict[str, str], *sources: str, host: str = "here") -> Node:
     """A node; ``sources`` are topics and publishers: `/chatter /talker`."""
     pairs = frozenset(tuple(each.split()) for each in sources)
     return Node(name, f"http://{host}:1{len(name)}/", published, subscribed, pairs)  # type: ignore[arg-type]
@@ -45,10 +43,7 @@ def found(graph: Survey) -> dict[str, tuple[str, ...]]:
 def test_a_graph_that_is_well_has_no_findings() -> None:
     assert found(survey(TALKER, LISTENER)) == {}
     clocked = node("/gazebo", {"/clock": "rosgraph_msgs/Clock"}, {})
-    assert (
-        found(survey(TALKER, LISTENER, clocked, parameters={"use_sim_time": True, "talker": {"rate": 1}}))
-        == {}
-    )
+    assert found(survey(TALKER, LISTENER, clocked, parameters={"use_sim_time": True, "talker": {"rate": 1}})) == {}
 
 
 def test_nodes_that_do_not_answer_are_listed_and_not_held_against_others() -> None:
@@ -64,18 +59,14 @@ def test_dropped_messages_are_counted_and_those_of_tools_left_out() -> None:
         Flow("/x", "/talker", "/listener", "subscriber", 0),
     )
     listener = replace(LISTENER, flows=flows)
-    tool = replace(
-        LISTENER, name="/rqt_plot_1", flows=(Flow("/chatter", "/talker", "/rqt_plot_1", "subscriber", 9),)
-    )
+    tool = replace(LISTENER, name="/rqt_plot_1", flows=(Flow("/chatter", "/talker", "/rqt_plot_1", "subscriber", 9),))
     (where,) = found(survey(TALKER, listener, tool))["dropped_messages"]
     assert all(part in where for part in ("/talker", "/listener", "/chatter", " 7 "))
 
 
 def test_types_that_differ_are_named_with_their_nodes() -> None:
     graph = survey(TALKER, node("/other", {"/chatter": NUMBER}, {}), LISTENER)
-    assert found(graph) == {
-        "types_differ": ("/chatter:", f" {NUMBER}: /other", f" {TEXT}: /listener, /talker"),
-    }
+    assert found(graph) == {"types_differ": ("/chatter:", f" {NUMBER}: /other", f" {TEXT}: /listener, /talker")}
 
 
 def test_a_subscriber_of_any_type_agrees_with_all() -> None:
@@ -95,11 +86,7 @@ def test_a_node_that_hears_itself_needs_no_connection() -> None:
 
 @pytest.mark.parametrize(
     ("wanted", "hint"),
-    [
-        ("/chater", "did you mean /chatter?"),
-        ("/robot/chatter", "did you mean /chatter?"),
-        ("/something/else", None),
-    ],
+    [("/chater", "did you mean /chatter?"), ("/robot/chatter", "did you mean /chatter?"), ("/something/else", None)],
 )
 def test_a_topic_that_nobody_publishes_is_listed_with_what_was_meant(wanted: str, hint: str | None) -> None:
     where = found(survey(TALKER, node("/deaf", {}, {wanted: TEXT})))["no_publisher"]
@@ -139,17 +126,13 @@ def test_parameters_of_a_name_that_is_almost_a_node() -> None:
         "strangers_parameters": ("/ammcl: did you mean amcl?",)
     }
     assert found(survey(amcl, parameters={"something_else": {"a": 1}, "amcl": {}, "rate": 3})) == {}
-    robots = survey(
-        node("/robot1", {}, {}), node("/robot2/amcl", {}, {}), parameters={"robot2": {"amcl": {}}}
-    )
+    robots = survey(node("/robot1", {}, {}), node("/robot2/amcl", {}, {}), parameters={"robot2": {"amcl": {}}})
     assert found(robots) == {}
 
 
 def test_an_address_of_this_machine_only_in_a_graph_of_several() -> None:
     far = node("/far", {}, {}, host="10.0.0.3")
-    assert found(survey(node("/near", {}, {}, host="127.0.0.1"), far)) == {
-        "loopback_addresses": ("/near (127.0.0.1)",)
-    }
+    assert found(survey(node("/near", {}, {}, host="127.0.0.1"), far)) == {"loopback_addresses": ("/near (127.0.0.1)",)}
     assert found(survey(node("/near", {}, {}, host="localhost"))) == {}
 
 
@@ -175,9 +158,5 @@ def test_a_costmap_that_inflates_too_little(costmap: dict[str, Any], text: str |
 
 
 def test_every_rule_of_the_module_is_asked() -> None:
-    own = {
-        name
-        for name, each in vars(graph_rules).items()
-        if getattr(each, "__module__", "") == graph_rules.__name__
-    }
+    own = {name for name, each in vars(graph_rules).items() if getattr(each, "__module__", "") == graph_rules.__name__}
     assert {name for name in own if not name.startswith("_")} == {rule.__name__ for rule in RULES}

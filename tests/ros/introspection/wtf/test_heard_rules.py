@@ -30,15 +30,11 @@ def test_one_frame_and_two_senders() -> None:
 
 
 def test_one_frame_and_two_parents() -> None:
-    assert found(Heard(sent("map>odom", "map>base", "odom>base"))) == {
-        "several_parents": ("base: map, odom",)
-    }
+    assert found(Heard(sent("map>odom", "map>base", "odom>base"))) == {"several_parents": ("base: map, odom",)}
 
 
 def test_two_trees() -> None:
-    assert found(Heard(sent("map>odom", "base>laser"))) == {
-        "several_trees": ("base: base, laser", "map: map, odom")
-    }
+    assert found(Heard(sent("map>odom", "base>laser"))) == {"several_trees": ("base: base, laser", "map: map, odom")}
 
 
 def test_a_circle() -> None:
@@ -48,9 +44,7 @@ def test_a_circle() -> None:
     assert below == {"tf_loop": ("a, b",)}
 
 
-@pytest.mark.parametrize(
-    ("seconds", "text"), [(11, "11.0 s old"), (-3600, "3600.0 s ahead"), (9, None), (0.02, None)]
-)
+@pytest.mark.parametrize(("seconds", "text"), [(11, "11.0 s old"), (-3600, "3600.0 s ahead"), (9, None), (0.02, None)])
 def test_stamps_far_from_the_time(seconds: float, text: str | None) -> None:
     heard = Heard(sent("odom>base", stamp=NOW - round(seconds * 1e9)))
     assert found(heard) == ({"old_transforms": (f"base, sent by /driver: {text}",)} if text else {})

@@ -23,11 +23,7 @@ def test_a_graph_in_this_process_answers_for_all_its_nodes() -> None:
         assert found.types("/number") == {"std_msgs/Int32": ["/listener"]}
         assert found.publishers["/chatter"] == ("/talker",)
         assert found.services["/go"] == ("/listener",)
-        assert (found.parameter("rate"), found.parameter("rate", "x"), found.parameter("none")) == (
-            5,
-            None,
-            None,
-        )
+        assert (found.parameter("rate"), found.parameter("rate", "x"), found.parameter("none")) == (5, None, None)
         assert not any(node.silence for node in found.nodes.values())
 
 
@@ -42,8 +38,7 @@ def test_messages_that_queues_drop_are_counted_by_connection() -> None:
         graph.run(5.0)
         found = survey(graph)
     sent, received = (
-        next(flow for flow in found.nodes[name].flows if flow.topic == "/n")
-        for name in ("/talker", "/listener")
+        next(flow for flow in found.nodes[name].flows if flow.topic == "/n") for name in ("/talker", "/listener")
     )
     assert sent == ("/n", "/talker", "/listener", "publisher", 0)
     assert received == ("/n", "/talker", "/listener", "subscriber", 8)

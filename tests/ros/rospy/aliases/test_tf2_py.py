@@ -7,12 +7,7 @@ import pytest
 from rosmini.core.tf.messages import to_stamped
 from rosmini.core.tf.rigid import from_yaw
 from rosmini.core.time import Duration, Time
-from rosmini.ros.rospy.aliases.tf2_py import (
-    BufferCore,
-    ExtrapolationException,
-    LookupException,
-    TransformException,
-)
+from rosmini.ros.rospy.aliases.tf2_py import BufferCore, ExtrapolationException, LookupException, TransformException
 
 
 @pytest.fixture

@@ -46,10 +46,7 @@ def test_odometry_of_the_world_and_of_the_encoders(bench: Start) -> None:
     there = bench()
     there.spawn(urdf(), "world", 1.0, 2.0, robot_namespace="w")
     there.spawn(urdf(DIFF_DRIVE.replace(">world<", ">encoder<")), "encoder", 1.0, 4.0, robot_namespace="e")
-    of_world, of_encoder = (
-        there.hear("/w/odom", "nav_msgs/Odometry"),
-        there.hear("/e/odom", "nav_msgs/Odometry"),
-    )
+    of_world, of_encoder = (there.hear("/w/odom", "nav_msgs/Odometry"), there.hear("/e/odom", "nav_msgs/Odometry"))
     for name in "we":
         there.drive(f"/{name}/cmd_vel", 0.3)
     there.graph.run(2.0)
@@ -84,9 +81,7 @@ def test_which_wheel_is_the_left_one_is_seen_and_gazebos_legacy_mode_warned_of(
     text = DIFF_DRIVE.replace(">false</legacyMode>", f">{legacy}</legacyMode>")
     if exchange:
         text = (
-            text.replace("left_wheel", "x")
-            .replace("right_wheel", "left_wheel")
-            .replace("x</left", "right_wheel</left")
+            text.replace("left_wheel", "x").replace("right_wheel", "left_wheel").replace("x</left", "right_wheel</left")
         )
     assert there.spawn(urdf(text), "r").success
     there.drive("/cmd_vel", 0.2, 0.5)
@@ -150,9 +145,7 @@ def test_a_laser_sees_what_is_there(bench: Start) -> None:
 
 def test_noise_is_that_of_the_tag_and_each_robot_has_its_own(bench: Start) -> None:
     there = bench()
-    noisy = LASER.replace(
-        "<range>", "<noise><type>gaussian</type><mean>0</mean><stddev>0.05</stddev></noise><range>"
-    )
+    noisy = LASER.replace("<range>", "<noise><type>gaussian</type><mean>0</mean><stddev>0.05</stddev></noise><range>")
     there.spawn(box(static=True, size=4.0), "wall", 4.0)
     for i in range(2):
         there.spawn(urdf(noisy), f"r{i}", 0.0, -1.0 + 2 * i, robot_namespace=f"r{i}")
@@ -290,8 +283,7 @@ def test_the_sensors_unit_measures_in_its_own_axes(bench: Start) -> None:
 
 
 @pytest.mark.parametrize(
-    ("tags", "first"),
-    [("", 1.0), ("<initialOrientationAsReference>true</initialOrientationAsReference>", 0.0)],
+    ("tags", "first"), [("", 1.0), ("<initialOrientationAsReference>true</initialOrientationAsReference>", 0.0)]
 )
 def test_the_sensors_unit_counts_the_heading_in_the_world_unless_told_otherwise(
     bench: Start, tags: str, first: float
@@ -396,10 +388,7 @@ STATES = """<gazebo><plugin name="j" filename="libgazebo_ros_joint_state_publish
 def test_joint_states_and_ground_truth(bench: Start) -> None:
     there = bench()
     there.spawn(urdf(DIFF_DRIVE + STATES), "r", 1.0, 0.0, math.pi / 2)
-    joints, truth = (
-        there.hear("/r/joint_states", "sensor_msgs/JointState"),
-        there.hear("/truth", "nav_msgs/Odometry"),
-    )
+    joints, truth = (there.hear("/r/joint_states", "sensor_msgs/JointState"), there.hear("/truth", "nav_msgs/Odometry"))
     there.drive("/cmd_vel", 0.1)
     there.graph.run(2.05)
     assert joints[-1].velocity == pytest.approx([2.0, 2.0])
@@ -445,9 +434,7 @@ def test_a_plugin_in_the_wrong_place_is_left_out(bench: Start, capsys: pytest.Ca
     there = bench()
     text = '<gazebo><plugin name="x" filename="libgazebo_ros_laser.so"/></gazebo>'
     assert there.spawn(urdf(text), "r").success
-    assert "is a sensor plugin, but is in the model 'r', which takes model plugins" in "".join(
-        capsys.readouterr()
-    )
+    assert "is a sensor plugin, but is in the model 'r', which takes model plugins" in "".join(capsys.readouterr())
 
 
 def test_a_model_that_goes_takes_its_topics_along_even_while_it_moves(bench: Start) -> None:
@@ -531,8 +518,7 @@ def test_four_wheels_need_their_joints(bench: Start) -> None:
 def mounted(rpy: str) -> str:
     """The box on wheels with its laser mounted so."""
     return urdf().replace(
-        '<child link="laser"/><origin xyz="0 0 0.2"/>',
-        f'<child link="laser"/><origin xyz="0 0 0.2" rpy="{rpy}"/>',
+        '<child link="laser"/><origin xyz="0 0 0.2"/>', f'<child link="laser"/><origin xyz="0 0 0.2" rpy="{rpy}"/>'
     )
 
 
@@ -540,9 +526,7 @@ def mounted(rpy: str) -> str:
     ("rpy", "seen_at"),
     [("0 0 0", math.pi / 4), ("3.14159265 0 0", -math.pi / 4), ("0 3.14159265 3.14159265", -math.pi / 4)],
 )
-def test_a_laser_that_is_mounted_upside_down_sees_everything_mirrored(
-    bench: Start, rpy: str, seen_at: float
-) -> None:
+def test_a_laser_that_is_mounted_upside_down_sees_everything_mirrored(bench: Start, rpy: str, seen_at: float) -> None:
     there = bench()
     there.spawn(box("thing", static=True), "thing", 2.0, 2.0)
     assert there.spawn(mounted(rpy), "r").success
@@ -554,9 +538,7 @@ def test_a_laser_that_is_mounted_upside_down_sees_everything_mirrored(
     assert angles[np.isfinite(ranges)].mean() == pytest.approx(seen_at, abs=0.02)
 
 
-def test_a_tilted_laser_measures_level_or_is_left_out(
-    bench: Start, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_tilted_laser_measures_level_or_is_left_out(bench: Start, capsys: pytest.CaptureFixture[str]) -> None:
     there = bench()
     for i, (tilt, works) in enumerate([("0 0.05 0", True), ("0 0.5 0", False)]):
         assert there.spawn(mounted(tilt), f"r{i}", 3.0 * i, robot_namespace=f"n{i}").success

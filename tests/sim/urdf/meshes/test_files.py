@@ -57,10 +57,7 @@ def test_collada_is_read_back(tmp_path):
     assert volume([one]) == pytest.approx(48, rel=1e-3)
     assert volume([two]) == pytest.approx(volume([wheel]), rel=1e-3)
     assert len(two.vertices) == len(
-        {
-            tuple(row)
-            for row in np.hstack([wheel.vertices, wheel.normals])[wheel.faces.ravel()].round(3).tolist()
-        }
+        {tuple(row) for row in np.hstack([wheel.vertices, wheel.normals])[wheel.faces.ravel()].round(3).tolist()}
     )
 
 
@@ -108,11 +105,7 @@ def test_collada_of_others_units_nodes_and_polygons(tmp_path, up):
         ('offset="0"', 'offset="-1"', "an offset is a whole number from 0 to 99"),
         ("<p>0 1 2 3</p>", "<p>0 1 2 99999999999999999999</p>", "<p> holds whole numbers"),
         ("<matrix>2 0", "<matrix>1e300 1e300", "is too large"),
-        (
-            "<node><translate>",
-            "<node><scale>1e9 1 1</scale><scale>1e9 1 1</scale><translate>",
-            "infinitely large",
-        ),
+        ("<node><translate>", "<node><scale>1e9 1 1</scale><scale>1e9 1 1</scale><translate>", "infinitely large"),
         ("<node><translate>", "<node id='n'><instance_node url='#n'/><translate>", "without end"),
         ('semantic="VERTEX"', 'semantic="NORMAL"', "has no input VERTEX"),
         ("<COLLADA>", "<COLADA>", "closes another element"),
@@ -131,8 +124,7 @@ def test_a_scene_that_fans_out_ends(tmp_path):
     nodes = "".join(f"<node id='n{i}'>{way}</node>" for i, way in enumerate(ways))
     path = tmp_path / "a.dae"
     path.write_text(
-        DAE.replace('<visual_scene id="vs">', f"<visual_scene id='vs'>{nodes}<node id='n40'/>"),
-        encoding="utf-8",
+        DAE.replace('<visual_scene id="vs">', f"<visual_scene id='vs'>{nodes}<node id='n40'/>"), encoding="utf-8"
     )
     with pytest.raises(MeshError, match="without end"):
         read(path)
@@ -245,7 +237,4 @@ def test_obj(tmp_path):
     path = tmp_path / "a.obj"
     path.write_text("# quad\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1/1/1 2/2/1 3//1 -1\n", encoding="utf-8")
     (surface,) = read(path)
-    assert surface.triangles.tolist() == [
-        [[0, 0, 0], [1, 0, 0], [1, 1, 0]],
-        [[0, 0, 0], [1, 1, 0], [0, 1, 0]],
-    ]
+    assert surface.triangles.tolist() == [[[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 0, 0], [1, 1, 0], [0, 1, 0]]]

@@ -21,13 +21,10 @@ def cloud(stage, statuses):
 
     def see(depths, colours=None, *, more=None, size=(3, 2), encoding="32FC1") -> tuple[Any, dict[str, Any]]:
         scene, display = stage.display(
-            "DepthCloud",
-            more={"Depth Map Topic": "/depth/image", "Color Image Topic": "/rgb/image", **(more or {})},
+            "DepthCloud", more={"Depth Map Topic": "/depth/image", "Color Image Topic": "/rgb/image", **(more or {})}
         )
         array = np.array(depths, np.float32 if encoding == "32FC1" else np.uint16)
-        message = ImageMessage(
-            width=3, height=2, encoding=encoding, step=3 * array.itemsize, data=array.tobytes()
-        )
+        message = ImageMessage(width=3, height=2, encoding=encoding, step=3 * array.itemsize, data=array.tobytes())
         stage.publish("/depth/image", message, "map")
         if colours is not None:
             data = np.array(colours, np.uint8).tobytes()
@@ -51,9 +48,7 @@ def test_each_pixel_with_a_depth_is_a_point(cloud):
 
 
 def test_depths_in_millimetres_and_points_of_a_size(cloud):
-    points, _ = cloud(
-        [[2000, 0, 1000], [0, 0, 0]], encoding="16UC1", more={"Auto Size": False, "Size (m)": 0.5}
-    )
+    points, _ = cloud([[2000, 0, 1000], [0, 0, 0]], encoding="16UC1", more={"Auto Size": False, "Size (m)": 0.5})
     assert points.points[:, 2] == pytest.approx([2.0, 1.0])
     assert points.size == 0.5
 

@@ -112,10 +112,7 @@ def test_a_drag_moves_the_marker_as_its_control_says(shop, name):
 
 
 def test_a_ring_turns_and_a_toothed_one_tows(shop):
-    shop.show(
-        marker(Control.ROTATE_AXIS, ALONG_Z),
-        marker(Control.MOVE_ROTATE, ALONG_Z, name="tow", at=(-5.0, 0, 0)),
-    )
+    shop.show(marker(Control.ROTATE_AXIS, ALONG_Z), marker(Control.MOVE_ROTATE, ALONG_Z, name="tow", at=(-5.0, 0, 0)))
     shop.display.drag("box", (1.0, 3.0, 0.0), start=(2.0, 2.0, 0.0))
     shop.display.drag("tow", (-5.0, 2.0, 0.0), start=(-4.0, 0.0, 0.0))
     shop.graph.run(0.1)
@@ -134,9 +131,7 @@ def test_a_marker_of_another_frame_is_answered_in_it_and_a_stamped_one_in_the_fi
     shop.display.drag("box", (9.0, 0.0, 0.0))
     shop.display.drag("stamped", (9.0, 0.0, 0.0))
     shop.graph.run(0.1)
-    own, fixed = (
-        next(each for each in shop.feedback if each.marker_name == name) for name in ("box", "stamped")
-    )
+    own, fixed = (next(each for each in shop.feedback if each.marker_name == name) for name in ("box", "stamped"))
     own, fixed = shop.feedback[1], shop.feedback[4]
     assert (own.header.frame_id, fixed.header.frame_id) == ("odom", "map")
     assert (own.pose.position.x, own.pose.position.y) == pytest.approx((0.0, 1.0), abs=1e-9)
@@ -144,9 +139,7 @@ def test_a_marker_of_another_frame_is_answered_in_it_and_a_stamped_one_in_the_fi
 
 
 def test_the_tool_takes_hold_of_what_is_under_the_hand(shop):
-    shop.show(
-        marker(Control.MOVE_PLANE, ALONG_Z), marker(Control.MOVE_AXIS, name="other", at=(9.0, 9.0, 0.0))
-    )
+    shop.show(marker(Control.MOVE_PLANE, ALONG_Z), marker(Control.MOVE_AXIS, name="other", at=(9.0, 9.0, 0.0)))
     tool = Tools(shop.scene)["Interact"]
     assert "Click an interactive marker" in tool.drag((1.0, 2.0), (3.0, 3.0))
     assert tool.drag((1.57, 2.0), (3.57, 3.0)) == "box: 3, 3, 0 in map"
@@ -157,10 +150,7 @@ def test_the_tool_takes_hold_of_what_is_under_the_hand(shop):
 
 
 def test_controls_are_seen_with_the_tool_interact_and_only_those_that_are_held_during_a_drag(shop):
-    markers = [
-        marker(Control.MOVE_PLANE, ALONG_Z),
-        marker(Control.MOVE_PLANE, ALONG_Z, name="other", at=(9.0, 9.0, 0)),
-    ]
+    markers = [marker(Control.MOVE_PLANE, ALONG_Z), marker(Control.MOVE_PLANE, ALONG_Z, name="other", at=(9.0, 9.0, 0))]
     assert len(shop.show(*markers)) == 4
     tools = Tools(shop.scene)
     tools.take("Measure")
@@ -217,11 +207,7 @@ def test_the_server_says_where_it_is_after_a_drag(shop):
 
 WRONG = {
     "nan": (marker(Control.MOVE_AXIS, at=(math.nan, 0.0, 0.0)), "Error", "Marker contains invalid floats!"),
-    "turned": (
-        marker(Control.MOVE_AXIS, (math.nan, 0.0, 0.0, 0.0)),
-        "Error",
-        "Marker contains invalid floats!",
-    ),
+    "turned": (marker(Control.MOVE_AXIS, (math.nan, 0.0, 0.0, 0.0)), "Error", "Marker contains invalid floats!"),
     "frame": (marker(Control.MOVE_AXIS, frame="nowhere"), "Error", "For frame [nowhere]:"),
     "words": (marker(Control.MENU), "Warn", "Text is empty"),
 }

@@ -10,12 +10,7 @@ from rosmini.msgs.sensor_msgs.msg import LaserScan
 
 def scan(ranges, intensities=()) -> LaserScan:
     return LaserScan(
-        ranges=ranges,
-        intensities=intensities,
-        angle_min=0.0,
-        angle_increment=np.pi / 2,
-        range_min=0.2,
-        range_max=3.5,
+        ranges=ranges, intensities=intensities, angle_min=0.0, angle_increment=np.pi / 2, range_min=0.2, range_max=3.5
     )
 
 
@@ -37,9 +32,7 @@ def test_intensities_are_a_rainbow_from_red_to_magenta(stage):
 
 
 def test_flat_and_axis_colours(stage):
-    found, _ = points(
-        stage, scan([1.0]), **{"Color Transformer": "FlatColor", "Color": (0, 255, 0), "Alpha": 0.5}
-    )
+    found, _ = points(stage, scan([1.0]), **{"Color Transformer": "FlatColor", "Color": (0, 255, 0), "Alpha": 0.5})
     assert found.colours == pytest.approx(np.array([(0, 1, 0, 0.5)]))
     found, _ = points(
         stage,
@@ -76,7 +69,4 @@ def test_impossible_angles_are_an_error_and_the_next_scan_is_shown(stage, status
 
 def test_a_transformer_that_the_message_cannot_serve_is_an_error(stage, statuses):
     _, display = points(stage, scan([1.0]), **{"Color Transformer": "RGB8"})
-    assert statuses(display)["Topic"] == (
-        "Error",
-        "No color transformer RGB8 for this message: it has no channels",
-    )
+    assert statuses(display)["Topic"] == ("Error", "No color transformer RGB8 for this message: it has no channels")

@@ -49,11 +49,7 @@ def shown(stage, statuses):
 
 @pytest.mark.parametrize(
     ("kind", "size"),
-    [
-        (Marker.CUBE, (0.5, 0.25, 0.125)),
-        (Marker.SPHERE, (0.5, 0.25, 0.125)),
-        (Marker.CYLINDER, (0.5, 0.25, 0.125)),
-    ],
+    [(Marker.CUBE, (0.5, 0.25, 0.125)), (Marker.SPHERE, (0.5, 0.25, 0.125)), (Marker.CYLINDER, (0.5, 0.25, 0.125))],
 )
 def test_solids_have_the_scale_as_their_size(shown, kind, size):
     ((mesh,), said) = shown(marker(kind))
@@ -116,10 +112,7 @@ def test_a_mesh_of_a_package_has_its_own_colours_or_that_of_the_marker(shown):
 
 def test_missing_meshes_are_named(shown):
     drawn, said = shown(
-        marker(
-            Marker.MESH_RESOURCE,
-            mesh_resource="package://turtlebot3_description/meshes/bases/burger_base.stl",
-        ),
+        marker(Marker.MESH_RESOURCE, mesh_resource="package://turtlebot3_description/meshes/bases/burger_base.stl"),
         marker(Marker.MESH_RESOURCE, 1, mesh_resource="http://example.org/a.stl"),
         marker(Marker.CUBE, 2),
     )
@@ -130,37 +123,17 @@ def test_missing_meshes_are_named(shown):
 
 
 WRONG = {
-    "nan": (
-        marker(Marker.CUBE, at=(math.nan, 0.0, 0.0)),
-        "Error",
-        "Position contains invalid floating point values",
-    ),
-    "infinite": (
-        marker(Marker.CUBE, scale=(1.0, math.inf, 1.0)),
-        "Error",
-        "Scale contains invalid floating point",
-    ),
+    "nan": (marker(Marker.CUBE, at=(math.nan, 0.0, 0.0)), "Error", "Position contains invalid floating point values"),
+    "infinite": (marker(Marker.CUBE, scale=(1.0, math.inf, 1.0)), "Error", "Scale contains invalid floating point"),
     "zero": (marker(Marker.CUBE, scale=(1.0, 0.0, 1.0)), "Warn", "Scale contains 0.0 in x, y or z"),
     "negative": (marker(Marker.CUBE, scale=(1.0, -2.0, 1.0)), "Warn", "Scale contains a negative number"),
     "no points": (marker(Marker.POINTS), "Error", "Points should not be empty for specified marker type"),
-    "one point": (
-        marker(Marker.LINE_STRIP, points=SOMEWHERE[:1]),
-        "Error",
-        "At least two points are required",
-    ),
+    "one point": (marker(Marker.LINE_STRIP, points=SOMEWHERE[:1]), "Error", "At least two points are required"),
     "odd": (marker(Marker.LINE_LIST, points=SOMEWHERE), "Error", "should be a multiple of 2 for LINE_LIST"),
     "no triangle": (marker(Marker.TRIANGLE_LIST, points=SOMEWHERE[:2]), "Error", "should be a multiple of 3"),
-    "colours": (
-        marker(Marker.POINTS, points=SOMEWHERE, colors=[Color()]),
-        "Error",
-        "Number of colors doesn't match",
-    ),
+    "colours": (marker(Marker.POINTS, points=SOMEWHERE, colors=[Color()]), "Error", "Number of colors doesn't match"),
     "arrow": (marker(Marker.ARROW, points=SOMEWHERE), "Error", "an ARROW marker should be either 0 or 2"),
-    "words": (
-        marker(Marker.TEXT_VIEW_FACING, text=" "),
-        "Error",
-        "Text is empty or only consists of whitespace",
-    ),
+    "words": (marker(Marker.TEXT_VIEW_FACING, text=" "), "Error", "Text is empty or only consists of whitespace"),
     "mesh": (marker(Marker.MESH_RESOURCE), "Error", "Empty mesh_resource path"),
     "kind": (marker(77), "Error", "Unknown marker type: 77"),
     "action": (marker(Marker.CUBE, action=9), "Error", "Unknown marker action: 9"),
@@ -190,9 +163,7 @@ def test_a_quaternion_of_zeros_is_no_rotation(shown):
 
 
 def test_same_name_replaces_delete_takes_away_and_deleteall_all(shown):
-    drawn, _ = shown(
-        marker(Marker.CUBE), marker(Marker.SPHERE), marker(Marker.CUBE, 1), marker(Marker.CUBE, 2)
-    )
+    drawn, _ = shown(marker(Marker.CUBE), marker(Marker.SPHERE), marker(Marker.CUBE, 1), marker(Marker.CUBE, 2))
     assert len(drawn) == 3
     drawn, _ = shown(marker(Marker.CUBE, 1, action=Marker.DELETE))
     assert len(drawn) == 2

@@ -22,10 +22,7 @@ PLACES = [(1.0, 0.0, 0.0), (2.0, 0.0, 0.5), (math.nan, 0.0, 0.0), (3.0, 1.0, 1.0
 
 
 def cloud(rows: list[tuple[Any, ...]], *names: str) -> Any:
-    fields = [
-        PointField(name, 4 * i, 6 if name == "rgb" else 7, 1)
-        for i, name in enumerate(["x", "y", "z", *names])
-    ]
+    fields = [PointField(name, 4 * i, 6 if name == "rgb" else 7, 1) for i, name in enumerate(["x", "y", "z", *names])]
     return point_cloud2.create_cloud(Header(), fields, rows)
 
 

@@ -84,10 +84,7 @@ def test_an_ellipsoid_has_the_standard_deviations_as_half_axes(stage, statuses):
     message.pose.covariance = covariance(-1.0, 1.0, 0.0)
     stage.publish("/amcl_pose", message, "map")
     scene.update()
-    assert statuses(display)["Topic"] == (
-        "Error",
-        "Covariance matrix is not positive: it has negative variances",
-    )
+    assert statuses(display)["Topic"] == ("Error", "Covariance matrix is not positive: it has negative variances")
     display["Covariance"] = False
     assert len(scene.update()[0].primitives) == 1
 

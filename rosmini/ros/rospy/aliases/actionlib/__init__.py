@@ -141,11 +141,7 @@ class SimpleActionServer(actionlib.SimpleActionServer):
     """Executes one goal of ``name`` at a time. Raises ``ROSInitException`` before ``init_node``."""
 
     def __init__(
-        self,
-        name: str,
-        ActionSpec: Any,
-        execute_cb: Callable[[Any], object] | None = None,
-        auto_start: bool = True,
+        self, name: str, ActionSpec: Any, execute_cb: Callable[[Any], object] | None = None, auto_start: bool = True
     ) -> None:
         node = _node_of_server(name, auto_start)
         super().__init__(node, name, ActionSpec, execute_cb, auto_start, **_OPTIONS)

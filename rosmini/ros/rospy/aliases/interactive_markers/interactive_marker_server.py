@@ -32,6 +32,4 @@ class InteractiveMarkerServer(interactive_markers.InteractiveMarkerServer):
     """Shows interactive markers of the script's node. Raises ``ROSInitException`` before ``init_node``."""
 
     def __init__(self, topic_ns: str, server_id: str = "", q_size: int = 100) -> None:
-        super().__init__(
-            require_node(f"an interactive marker server {topic_ns}"), topic_ns, server_id, q_size
-        )
+        super().__init__(require_node(f"an interactive marker server {topic_ns}"), topic_ns, server_id, q_size)

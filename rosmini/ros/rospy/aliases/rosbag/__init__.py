@@ -55,9 +55,7 @@ class Bag(_bag.Bag):
         options: Mapping[str, Any] | None = None,
         skip_index: bool = False,
     ) -> None:
-        super().__init__(
-            f, mode, compression, chunk_threshold, allow_unindexed, options, skip_index, numpy=False
-        )
+        super().__init__(f, mode, compression, chunk_threshold, allow_unindexed, options, skip_index, numpy=False)
 
 
 def rosbagmain(argv: Sequence[str] | None = None) -> None:

@@ -38,9 +38,7 @@ class RosStreamHandler(logging.Handler):
     Times are graph time. Colours are used on a terminal, unless ``colorize`` is false.
     """
 
-    def __init__(
-        self, colorize: bool = True, stdout: TextIO | None = None, stderr: TextIO | None = None
-    ) -> None:
+    def __init__(self, colorize: bool = True, stdout: TextIO | None = None, stderr: TextIO | None = None) -> None:
         super().__init__()
         self._stdout, self._stderr, self._colorize = stdout or sys.stdout, stderr or sys.stderr, colorize
 

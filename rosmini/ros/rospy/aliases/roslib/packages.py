@@ -37,9 +37,7 @@ def get_pkg_dir(
     """
     del ros_root  # older than the package path
     try:
-        return str(
-            PackageIndex(ros_package_path.split(os.pathsep) if ros_package_path else None).path(package)
-        )
+        return str(PackageIndex(ros_package_path.split(os.pathsep) if ros_package_path else None).path(package))
     except UnknownPackage as error:
         if not required:
             return None

@@ -103,9 +103,7 @@ def rosnode_listnodes(namespace: str | None = None, list_uri: bool = False, list
     print("\n".join(f"{uri} \t{name}" if list_all else uri for uri, name in zip(uris, names, strict=True)))
 
 
-def rosnode_ping(
-    node_name: str, max_count: int | None = None, verbose: bool = False, skip_cache: bool = False
-) -> bool:
+def rosnode_ping(node_name: str, max_count: int | None = None, verbose: bool = False, skip_cache: bool = False) -> bool:
     """Ping a node ``max_count`` times, once a second (None: until Ctrl-C); return True if it answers."""
     uri = get_api_uri(None, node_name, skip_cache)
     if uri is None:

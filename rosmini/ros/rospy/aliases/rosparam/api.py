@@ -7,15 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from rosmini.core.names import join
-from rosmini.core.rosparam import (
-    NS,
-    RosParamException,
-    RosParamIOException,
-    assignments,
-    documents,
-    dumps,
-    parse,
-)
+from rosmini.core.rosparam import NS, RosParamException, RosParamIOException, assignments, documents, dumps, parse
 from rosmini.ros.rospy.aliases.rosgraph.masterapi import Master
 from rosmini.ros.rospy.aliases.rosgraph.names import GLOBALNS, get_ros_namespace, make_global_ns
 

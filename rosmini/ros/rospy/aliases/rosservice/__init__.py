@@ -83,9 +83,7 @@ def get_service_node(service_name: str) -> str | None:
         return services.node_of(running_graph(), service_name)
 
 
-def get_service_list(
-    node: str | None = None, namespace: str | None = None, include_nodes: bool = False
-) -> list[Any]:
+def get_service_list(node: str | None = None, namespace: str | None = None, include_nodes: bool = False) -> list[Any]:
     """Return the services, of a node and in a namespace if given: names, or [name, nodes] with ``include_nodes``."""
     with _reached():
         found = services.services(running_graph(), namespace)

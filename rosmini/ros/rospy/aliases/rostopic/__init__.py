@@ -120,9 +120,7 @@ def get_topic_type(topic: str, blocking: bool = False) -> Found:
     return (None, None, None) if found is None else (found.type, found.topic, msgevalgen(found.path))
 
 
-def get_topic_class(
-    topic: str, blocking: bool = False
-) -> tuple[Any, str | None, Callable[[Any], Any] | None]:
+def get_topic_class(topic: str, blocking: bool = False) -> tuple[Any, str | None, Callable[[Any], Any] | None]:
     """Return the message class of a topic, its name, and a function that reads the field: see :func:`get_topic_type`.
 
     Raises ``ROSTopicException`` for an unknown type.
@@ -169,9 +167,7 @@ def create_field_filter(echo_nostr: bool, echo_noarr: bool) -> Callable[[Any], A
     return chosen(strings=echo_nostr, arrays=echo_noarr)
 
 
-def create_publisher(
-    topic_name: str, topic_type: str, latch: bool, disable_rostime: bool = True
-) -> tuple[Any, Any]:
+def create_publisher(topic_name: str, topic_type: str, latch: bool, disable_rostime: bool = True) -> tuple[Any, Any]:
     """Return a ``rospy.Publisher`` for a topic with the type's name, and the class; calls init_node if needed.
 
     Raises ``ROSTopicException`` for an unknown type.

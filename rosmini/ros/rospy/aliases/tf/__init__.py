@@ -15,12 +15,7 @@ import numpy as np
 from rosmini.core import tf
 from rosmini.core.tf import transformations
 from rosmini.core.tf.broadcaster import tf_prefix
-from rosmini.core.tf.errors import (
-    ConnectivityException,
-    ExtrapolationException,
-    LookupException,
-    TransformException,
-)
+from rosmini.core.tf.errors import ConnectivityException, ExtrapolationException, LookupException, TransformException
 from rosmini.core.tf.messages import to_stamped
 from rosmini.core.tf.rigid import Floats, compose, rotate, transform_points
 from rosmini.core.time import Duration, Time
@@ -289,9 +284,7 @@ class TransformBroadcaster:
     """Sends transforms on ``/tf``. Raises ``ROSInitException`` before ``init_node``."""
 
     def __init__(self, queue_size: int = 100) -> None:
-        self._broadcaster = tf.TransformBroadcaster(
-            require_node("tf.TransformBroadcaster"), queue_size=queue_size
-        )
+        self._broadcaster = tf.TransformBroadcaster(require_node("tf.TransformBroadcaster"), queue_size=queue_size)
 
     def sendTransform(
         self, translation: Iterable[float], rotation: Iterable[float], time: Time, child: str, parent: str

@@ -98,9 +98,7 @@ class Buffer(tf.Buffer, BufferInterface):
     ) -> Any:
         """Like :meth:`rosmini.core.tf.BufferCore.lookup_transform_full_core`."""
         any_node().scheduler.charge(CALL_TICKS)
-        return super().lookup_transform_full_core(
-            target_frame, target_time, source_frame, source_time, fixed_frame
-        )
+        return super().lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)
 
 
 class TransformBroadcaster(tf.TransformBroadcaster):
@@ -121,11 +119,7 @@ class TransformListener(tf.TransformListener):
     """Fills a buffer with transforms that the script's node gets. Raises ``ROSInitException`` before ``init_node``."""
 
     def __init__(
-        self,
-        buffer: tf.Buffer,
-        queue_size: int | None = None,
-        buff_size: int = 65536,
-        tcp_nodelay: bool = False,
+        self, buffer: tf.Buffer, queue_size: int | None = None, buff_size: int = 65536, tcp_nodelay: bool = False
     ) -> None:
         del buff_size, tcp_nodelay
         super().__init__(require_node("tf2_ros.TransformListener"), buffer, queue_size)

@@ -34,16 +34,12 @@ class BufferClient(BufferInterface):
         """Block until the server is available; return False after ``timeout`` (None or 0: no limit)."""
         return self.client.wait_for_server(timeout)
 
-    def lookup_transform(
-        self, target_frame: str, source_frame: str, time: Time, timeout: Any = AT_ONCE
-    ) -> Any:
+    def lookup_transform(self, target_frame: str, source_frame: str, time: Time, timeout: Any = AT_ONCE) -> Any:
         """Return the pose of ``source_frame`` in ``target_frame``, as a ``geometry_msgs/TransformStamped``.
 
         Raises the error of the lookup at the server, and ``TimeoutException`` if no answer comes.
         """
-        return self._ask(
-            target_frame=target_frame, source_frame=source_frame, source_time=time, timeout=timeout
-        )
+        return self._ask(target_frame=target_frame, source_frame=source_frame, source_time=time, timeout=timeout)
 
     def lookup_transform_full(
         self,
@@ -89,9 +85,7 @@ class BufferClient(BufferInterface):
         if not client.wait_for_result(goal.timeout + self.timeout_padding):
             raise TimeoutException(f"the buffer server at {server} has not answered in time: does it run?")
         if client.get_state() != Status.SUCCEEDED:
-            raise TimeoutException(
-                f"the buffer server at {server} gave the lookup up: {client.get_goal_status_text()}"
-            )
+            raise TimeoutException(f"the buffer server at {server} gave the lookup up: {client.get_goal_status_text()}")
         result = client.get_result()
         if result.error.error:
             raise ERRORS.get(result.error.error, TransformException)(result.error.error_string)

@@ -42,9 +42,7 @@ class BufferInterface:
     def __init__(self) -> None:
         self.registration = TransformRegistration()
 
-    def transform(
-        self, object_stamped: Any, target_frame: str, timeout: Any = AT_ONCE, new_type: Any = None
-    ) -> Any:
+    def transform(self, object_stamped: Any, target_frame: str, timeout: Any = AT_ONCE, new_type: Any = None) -> Any:
         """Return a stamped object in another frame, at the time in its header; as a ``new_type`` if given.
 
         Raises ``TypeException`` for an unregistered type, and the errors of ``lookup_transform``.
@@ -71,9 +69,7 @@ class BufferInterface:
         )
         return _converted(move(object_stamped, found), new_type)
 
-    def lookup_transform(
-        self, target_frame: str, source_frame: str, time: Time, timeout: Any = AT_ONCE
-    ) -> Any:
+    def lookup_transform(self, target_frame: str, source_frame: str, time: Time, timeout: Any = AT_ONCE) -> Any:
         """Raise ``NotImplementedException``; subclasses return the pose of ``source_frame`` in ``target_frame``."""
         raise NotImplementedException
 
@@ -133,9 +129,7 @@ class _Registration:
     def _find(self, what: str, key: Any) -> Callable[..., Any]:
         found: Callable[..., Any] | None = self._all().get((what, key))
         if found is None:
-            raise TypeException(
-                f"Type {key} is not loaded or supported: register a function for it with add...()"
-            )
+            raise TypeException(f"Type {key} is not loaded or supported: register a function for it with add...()")
         return found
 
     @staticmethod

@@ -45,9 +45,7 @@ def test_levels_go_to_their_streams_with_the_graphs_time(monkeypatch):
 
 
 def test_a_form_of_ones_own_and_colours(monkeypatch):
-    monkeypatch.setenv(
-        "ROSCONSOLE_FORMAT", "${time:%H:%M:%S} ${node} ${file}:${line} ${function} ${message} ${what}"
-    )
+    monkeypatch.setenv("ROSCONSOLE_FORMAT", "${time:%H:%M:%S} ${node} ${file}:${line} ${function} ${message} ${what}")
     err = Terminal()
     roslogging.RosStreamHandler(stderr=err).emit(record(logging.ERROR, "x"))
     assert err.getvalue() == "\033[31m00:16:40 /unnamed talker.py:3 main x ${what}\n\033[0m"
@@ -76,18 +74,14 @@ def test_records_are_written_to_ros_log_folder(tmp_path, monkeypatch, root):
     assert len(lines) == 1
     assert lines[0].startswith("[own][WARNING] ")
     assert lines[0].endswith(": but this")
-    assert Path(roslogging.configure_logging("", env={"ROS_LOG_DIR": str(tmp_path)}) or "").name.startswith(
-        "unknown-"
-    )
+    assert Path(roslogging.configure_logging("", env={"ROS_LOG_DIR": str(tmp_path)}) or "").name.startswith("unknown-")
 
 
 def test_a_folder_that_cannot_be_is_reported(tmp_path, capsys):
     (tmp_path / "log").write_text("", encoding="utf-8")
     with pytest.raises(roslogging.LoggingException, match="is in the way"):
         roslogging.configure_logging("talker", env={"ROS_HOME": str(tmp_path)})
-    assert (
-        roslogging.configure_logging("talker", filename="run/a.log", env={"ROS_HOME": str(tmp_path)}) is None
-    )
+    assert roslogging.configure_logging("talker", filename="run/a.log", env={"ROS_HOME": str(tmp_path)}) is None
     assert "set ROS_LOG_DIR to a writable location" in capsys.readouterr().err
 
 

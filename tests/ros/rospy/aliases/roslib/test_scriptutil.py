@@ -27,10 +27,7 @@ def test_who_publishes_and_subscribes(sim_programs):
         rospy.Publisher("news", String, queue_size=1)
         rospy.Subscriber("orders", String)
         return [
-            [
-                ask(topic, node)
-                for topic, node in (("/news", "/main"), ("/orders", "/main"), ("/news", "/other"))
-            ]
+            [ask(topic, node) for topic, node in (("/news", "/main"), ("/orders", "/main"), ("/news", "/other"))]
             for ask in (rostest.is_publisher, rostest.is_subscriber)
         ]
 

@@ -86,9 +86,7 @@ def test_pings(graph: Graph, capsys: pytest.CaptureFixture[str]) -> None:
         rosnode.get_node_connection_info_description(uri, None)
 
 
-def test_nodes_are_forgotten(
-    graph: Graph, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_nodes_are_forgotten(graph: Graph, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     lose(graph)
     monkeypatch.setattr(sys, "stdin", io.StringIO("what\nn\n"))
     rosnode.rosnode_cleanup()

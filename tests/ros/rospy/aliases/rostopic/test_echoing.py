@@ -13,9 +13,7 @@ from rosmini.ros.rospy.aliases.rostopic import CallbackEcho, create_field_filter
 
 POSE = PoseStamped()
 POSE.header.stamp, POSE.header.frame_id, POSE.pose.position.x = Time(5), "map", 1.5
-TITLES = ",".join(
-    ["%time", "field.header.seq", "field.header.stamp", *(f"field.pose.position.{a}" for a in "xyz")]
-)
+TITLES = ",".join(["%time", "field.header.seq", "field.header.stamp", *(f"field.pose.position.{a}" for a in "xyz")])
 
 
 @pytest.mark.parametrize(
@@ -39,9 +37,7 @@ def test_it_prints_a_message_as_the_options_ask(
     assert capsys.readouterr().out == printed
 
 
-def test_a_line_of_values_has_the_time_of_the_header_and_titles_once(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_a_line_of_values_has_the_time_of_the_header_and_titles_once(capsys: pytest.CaptureFixture[str]) -> None:
     echo = CallbackEcho(
         "/p", None, plot=True, count=2, field_filter_fn=create_field_filter(echo_nostr=True, echo_noarr=False)
     )

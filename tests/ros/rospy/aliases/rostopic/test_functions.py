@@ -90,9 +90,7 @@ def test_what_there_is(graph: Graph) -> None:
     assert rostopic._get_topic_type("/pose")[:2] == ("geometry_msgs/PoseStamped", "/pose")
     assert rostopic.get_api(None, "/talker") == graph.nodes["/talker"].uri
     assert rostopic.get_api(None, "/nobody") == "unknown address /nobody"
-    assert rostopic.get_info_text("/chatter").startswith(
-        "Type: std_msgs/String\n\nPublishers: None\n\nSubscribers: \n"
-    )
+    assert rostopic.get_info_text("/chatter").startswith("Type: std_msgs/String\n\nPublishers: None\n\nSubscribers: \n")
     with pytest.raises(rostopic.ROSTopicException, match="Unknown topic /nope"):
         rostopic.get_info_text("/nope")
 

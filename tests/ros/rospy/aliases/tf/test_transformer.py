@@ -60,9 +60,7 @@ def test_lookup_twist_full(transformer):
     assert linear == pytest.approx([SPEED, 0, 0], abs=1e-5)
     assert angular == pytest.approx([0, 0, TURN])
     assert twist("base", (0, 0, 0), "arm")[0] == pytest.approx([SPEED, 0.3 * TURN, 0], abs=1e-5)
-    assert twist("base", (0, 0.1, 0), "arm")[0] == pytest.approx(
-        [SPEED - 0.1 * TURN, 0.3 * TURN, 0], abs=1e-5
-    )
+    assert twist("base", (0, 0.1, 0), "arm")[0] == pytest.approx([SPEED - 0.1 * TURN, 0.3 * TURN, 0], abs=1e-5)
     # In the axes of map all is turned by 90 degrees.
     linear, angular = twist("/map", (0, 0, 0), "arm")
     x, y, _ = SPEED * forwards + 0.3 * TURN * aside
@@ -76,9 +74,7 @@ def test_lookup_twist_full(transformer):
 def test_the_window_of_a_twist_does_not_begin_before_time_zero(seconds, interval):
     transformer = Transformer(True, Duration(20))
     for second in range(11):
-        transformer.setTransform(
-            to_stamped("odom", "base", from_yaw(second, 0, 0), max(second * 10**9, 10**5))
-        )
+        transformer.setTransform(to_stamped("odom", "base", from_yaw(second, 0, 0), max(second * 10**9, 10**5)))
     linear, _ = transformer.lookupTwist("base", "odom", Time(seconds), Duration(interval))
     assert linear == pytest.approx([1, 0, 0], abs=1e-3)
     with pytest.raises(ExtrapolationException):

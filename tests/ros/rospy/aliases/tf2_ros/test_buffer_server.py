@@ -98,12 +98,7 @@ def test_lookups_in_the_buffer_of_another_node():
     assert facts == {
         "there": True,
         "at once": [3.0, 2.0, -2.0],
-        "errors": [
-            "LookupException",
-            "ConnectivityException",
-            "ExtrapolationException",
-            "InvalidArgumentException",
-        ],
+        "errors": ["LookupException", "ConnectivityException", "ExtrapolationException", "InvalidArgumentException"],
         "can": [True, False, True],
         "in vain": ["LookupException", 1.0],
         "waited for": [7.0, True],
@@ -153,7 +148,4 @@ def test_what_one_script_registers_no_other_one_finds():
         "except tf2_ros.TypeException as error:\n    print(error)"
     )
     _, out, _ = run(register, find)
-    assert (
-        out
-        == "added\nType <class 'int'> is not loaded or supported: register a function for it with add...()\n"
-    )
+    assert out == "added\nType <class 'int'> is not loaded or supported: register a function for it with add...()\n"
