@@ -15,7 +15,7 @@ from rosmini.ros.rospy.importer import install, ros_is_installed, uninstall
 from rosmini.tools import magics
 from rosmini.viz.embed import book_form
 
-from . import file_cells, logo_cell, node_cell
+from . import file_cells, logo_cell, looking, node_cell
 from .output import progress_in_cell
 from .saving import save_package
 from .session import Session, begin_session, end_session, session_of
@@ -124,6 +124,10 @@ OWN_MAGICS: tuple[tuple[str, str, Callable[..., object]], ...] = (
     ("cell", "action", file_cells.action),
     ("cell", "launch", file_cells.launch),
     ("line", "save_package", save_package),
+    ("line", "show", looking.show),
+    ("line", "record", looking.record),
+    ("line", "replay", looking.replay),
+    ("line", "click", looking.click),
 )
 """Magics for notebooks only: the kind, the name, and the function, which takes the session and the texts."""
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import shlex
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -12,23 +14,25 @@ from rosmini.core.errors import ScriptError, UsageError
 from rosmini.ros.scripts import Console, ScriptHandle, ScriptSpec, find
 from rosmini.ros.scripts.node_handle import NodeHandle, NodeSpec
 from rosmini.ros.scripts.source import compile_script
+from rosmini.ros.scripts.streams import Quiet
 from rosmini.tools.magics import run
 from rosmini.tools.magics import words as words_of
 
 from .runs import RunKey
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from rosmini.core.verbs import Result
     from rosmini.ros.launch import Launch
+    from rosmini.ros.scripts.streams import OutputSink
 
     from .session import Session
 
 SHEBANG = "#!/usr/bin/env python3"
 """First line of a script: it replaces the line of the magic, so that line numbers agree."""
 
-STDIN = "--stdin"
+STDIN, QUIET = "--stdin", "--quiet"
 
 _PRINTS = re.compile(r"\bprint\b|\blog(?:debug|info|warn|err|fatal)|\blogging\b|\bstd(?:out|err)\b|\binput\b")
 """Text that occurs in scripts that print."""
@@ -36,17 +40,19 @@ _PRINTS = re.compile(r"\bprint\b|\blog(?:debug|info|warn|err|fatal)|\blogging\b|
 
 @dataclass(frozen=True)
 class Words:
-    """The words of a line: what to start, its arguments, and the text of its standard input, if given."""
+    """The words of a line: what to start, its arguments, the text of its standard input, and whether it is quiet."""
 
     what: tuple[str, ...]
     args: tuple[str, ...]
     stdin: str | None
+    is_quiet: bool
 
     @classmethod
     def of(cls, line: str, name: str, count: int, usage: str, variables: Mapping[str, Any]) -> Words:
         """Read a line whose first ``count`` words say what to start. Raises ``UsageError`` with the ``usage``."""
         words = words_of(line, name, variables)
         stdin: str | None = None
+        is_quiet = _take(words, QUIET)
         if STDIN in words:
             at = words.index(STDIN)
             if at + 1 == len(words):
@@ -59,7 +65,7 @@ class Words:
             raise UsageError(f"unknown option {wrong!r}. Usage: {usage}")
         if len(what) < count:
             raise UsageError(f"usage: {usage}")
-        return cls(tuple(what), tuple(words[count:]), stdin)
+        return cls(tuple(what), tuple(words[count:]), stdin, is_quiet)
 
 
 def node(session: Session, line: str, cell: str) -> None:
@@ -68,7 +74,7 @@ def node(session: Session, line: str, cell: str) -> None:
     Raises ``UsageError`` for an invalid line, and ``ScriptError`` for a cell that is not valid Python: then nothing
     is written or ended.
     """
-    given = Words.of(line, "%node", 1, f"%%node NAME.py [ARGS] [{STDIN} TEXT]", session.shell.user_ns)
+    given = Words.of(line, "%node", 1, f"%%node NAME.py [ARGS] [{STDIN} TEXT] [{QUIET}]", session.shell.user_ns)
     name = given.what[0]
     if not name.endswith(".py"):
         raise UsageError(f"%%node writes a Python script: call it {name.partition('.')[0]}.py, not {name}")
@@ -83,7 +89,7 @@ def rosrun(session: Session, line: str) -> None:
 
     Raises ``UsageError`` for an invalid line, and the errors of :func:`rosmini.rosrun`.
     """
-    usage = f"%rosrun PACKAGE EXECUTABLE [ARGS] [{STDIN} TEXT]"
+    usage = f"%rosrun PACKAGE EXECUTABLE [ARGS] [{STDIN} TEXT] [{QUIET}]"
     given = Words.of(line, "rosrun", 2, usage, session.shell.user_ns)
     package, name = given.what
     found = find(f"{package}/{name}")
@@ -91,31 +97,59 @@ def rosrun(session: Session, line: str) -> None:
         _start_script(session, found.path, name, given)
         return
     graph = session.graph
-    console = partial(Console, graph.scheduler, stdin="", sink=session.sink)
     session.attach()
-    session.runs.start(
-        RunKey.of(f"{package}/{name}", given.args),
-        name,
-        lambda: NodeHandle(graph, NodeSpec(found, given.args), console),
-        may_print=False,
-    )
+    with _output(session, given.is_quiet) as sink:
+        console = partial(Console, graph.scheduler, stdin="", sink=sink)
+        session.runs.start(
+            RunKey.of(f"{package}/{name}", given.args),
+            name,
+            lambda: NodeHandle(graph, NodeSpec(found, given.args), console),
+            may_print=False,
+        )
 
 
 def roslaunch(session: Session, line: str) -> Result:
     """Start the nodes of launch files, or print information about the files, like the command.
 
+    ``--quiet`` hides what they log while they start, but for errors, and later also what is no warning or error.
     Raises the errors of the command.
     """
     session.attach()
-    console = {"stdin": "", "sink": session.sink}
+    words = words_of(line, "roslaunch", session.shell.user_ns)
+    is_quiet = _take(words, QUIET)
+    say = (lambda text: None if text.startswith("process[") else session.say(text)) if is_quiet else session.say
     results: list[Result] = []
 
-    def start() -> Launch | None:
-        results.append(run(session.shell, "roslaunch", line, say=session.say, console=console))
-        return getattr(results[0], "launch", None)
+    with _output(session, is_quiet) as sink:
 
-    session.runs.launch(words_of(line, "roslaunch", session.shell.user_ns), start)
+        def start() -> Launch | None:
+            results.append(
+                run(session.shell, "roslaunch", shlex.join(words), say=say, console={"stdin": "", "sink": sink})
+            )
+            return getattr(results[0], "launch", None)
+
+        session.runs.launch(words, start)
     return results[0]
+
+
+@contextmanager
+def _output(session: Session, is_quiet: bool) -> Iterator[OutputSink]:
+    """Yield the output for programs that start in this block."""
+    if not is_quiet:
+        yield session.sink
+        return
+    sink = Quiet(session.sink)
+    try:
+        yield sink
+    finally:
+        sink.is_starting = False
+
+
+def _take(words: list[str], word: str) -> bool:
+    """Remove a word, and return whether it was there."""
+    has = word in words
+    words[:] = [each for each in words if each != word]
+    return has
 
 
 def _start_script(session: Session, path: Path, title: str, given: Words, text: str | None = None) -> None:
@@ -126,16 +160,17 @@ def _start_script(session: Session, path: Path, title: str, given: Words, text: 
     graph = session.graph
     advice = f"add {STDIN} TEXT to the line that starts {title}"
     stdin = session.typed(advice) if given.stdin is None else given.stdin
-    console = partial(Console, graph.scheduler, stdin=stdin, sink=session.sink)
-
-    def make() -> ScriptHandle:
-        if text is not None:
-            session.package.write("scripts", path.name, text, may_run=True)
-        return ScriptHandle(graph, ScriptSpec(str(path), given.args), console, seed=_seed(given.args))
-
     source = path.read_text(encoding="utf-8", errors="replace") if text is None else text
     session.attach()
-    session.runs.start(RunKey.of(str(path), given.args), title, make, may_print=_PRINTS.search(source) is not None)
+    with _output(session, given.is_quiet) as sink:
+        console = partial(Console, graph.scheduler, stdin=stdin, sink=sink)
+
+        def make() -> ScriptHandle:
+            if text is not None:
+                session.package.write("scripts", path.name, text, may_run=True)
+            return ScriptHandle(graph, ScriptSpec(str(path), given.args), console, seed=_seed(given.args))
+
+        session.runs.start(RunKey.of(str(path), given.args), title, make, may_print=_PRINTS.search(source) is not None)
 
 
 def _seed(args: Sequence[str]) -> str:

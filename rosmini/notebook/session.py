@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 
     from rosmini.ros.scripts.streams import ScriptOutput
     from rosmini.sim.logo import Logo
+    from rosmini.sim.recorder import Recorder
+    from rosmini.sim.turtlesim.tape import Tape
+    from rosmini.viz.rviz.tools import Tools
 
 _ATTRIBUTE = "rosmini_session"
 
@@ -72,6 +75,10 @@ class Session:
             self.runs = Runs(graph, self.say)
             self.logos: dict[tuple[str, ...], Logo] = {}
             """Interpreters of ``%%logo`` cells, by the names of their turtles."""
+            self.recorders: list[Recorder | Tape] = []
+            """Recorders of the last ``%record``."""
+            self.rviz: dict[tuple[str | None, str | None], Tools] = {}
+            """Tools of RViz for ``%click``, by configuration file and fixed frame."""
 
     def logo(self, names: tuple[str, ...], make: Callable[[], Logo]) -> Logo:
         """Return the interpreter for these turtles in this graph; make one if there is none yet."""

@@ -22,22 +22,26 @@ OUTLINE = (
 """Left half of a turtle's outline from above [m]."""
 
 
-def turtle_replay(tape: Tape, *, title: str | None = None) -> ReplayView:
+def turtle_replay(*tapes: Tape, title: str | None = None) -> ReplayView:
     """Play a tape: moving turtles, and their strokes as they grew, on the final background of the window.
 
-    Before it is played, it shows the final drawing.
+    Before it is played, it shows the final drawing. Several tapes are shown side by side with one clock.
 
     Args:
-        tape: the result of `TurtleSim.record()`.
+        tapes: results of `TurtleSim.record()`.
         title: a caption, and the first words of the text form.
 
     Raises:
-        ViewError: the tape contains nothing to show.
+        ViewError: the tapes contain nothing to show.
 
     """
+    return replay(*map(_run, tapes), names=[tape.name for tape in tapes] if len(tapes) > 1 else None, title=title)
+
+
+def _run(tape: Tape) -> Run:
     strokes = tuple(_stroke(line) for line in tape.lines())
     notes = ("The tape was full before the end.",) if tape.is_full else ()
-    run = Run(
+    return Run(
         tape.name,
         tape.start_s,
         tape.end_s,
@@ -48,7 +52,6 @@ def turtle_replay(tape: Tape, *, title: str | None = None) -> ReplayView:
         notes=notes,
         opens_at_end=bool(strokes),
     )
-    return replay(run, title=title)
 
 
 def _body(track: Track, tape: Tape) -> Body:

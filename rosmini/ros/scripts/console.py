@@ -41,7 +41,7 @@ class Console:
         sink: OutputSink | None = None,
     ) -> None:
         self._captured = io.StringIO() if capture_output else None
-        self.is_apart = capture_output or stdout is not None or stderr is not None
+        self.is_apart = capture_output or stdout is not None or stderr is not None or (sink is not None and sink.to_log)
         """True if it writes elsewhere than the host."""
         self.sink = sink or OutputSink(
             self._captured or stdout or sys.stdout, self._captured or stderr or sys.stderr, prefix=prefix

@@ -81,6 +81,17 @@ class ErrorsOnly(OutputSink):
         self._sink.flush()
 
 
+class Quiet(ErrorsOnly):
+    """A sink that passes only standard error, and while programs start no warnings."""
+
+    is_starting = True
+
+    def emit(self, owner: ScriptOutput, text: str, *, complete: bool) -> None:
+        """Pass on a line of standard error."""
+        if not (self.is_starting and text.startswith("[WARN]")):
+            super().emit(owner, text, complete=complete)
+
+
 class ScriptOutput(io.TextIOBase):
     """``sys.stdout`` or ``sys.stderr`` of one script."""
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from rosmini.core.errors import RosminiError
+from rosmini.core.errors import RosminiError, nearest
 from rosmini.viz.map_colours import scheme_of
+from rosmini.viz.view import ViewError
 
-from .config import Config
+from .config import Config, kind_of
 from .display import Display
 from .displays.group import display_from
 from .topic_display import TopicDisplay
@@ -117,6 +119,32 @@ def suggested(graph: Graph, fixed_frame: str | None = None, *, apart_from: str =
     if options["Fixed Frame"] != "map":
         displays = [each for each in displays if not each["Name"].endswith(GROUND_TRUTH)]
     return config.with_parts(displays, options, None)
+
+
+def selected(config: Config, names: Sequence[str]) -> Config:
+    """Return a configuration with the grid and the displays that have one of the names, as name, class or topic.
+
+    Raises `ViewError` for a name that no display has.
+    """
+    displays = config.mappings("Displays")
+    found: list[dict[str, Any]] = []
+    for name in names:
+        matching = [each for each in displays if name in _names(each)]
+        if not matching:
+            known = sorted({str(each.get("Name", "")) for each in displays})
+            hint = nearest(name, known) or f"the displays are: {', '.join(known)}; a file is given by -d FILE"
+            raise ViewError(f"there is no display {name!r:.60}; {hint}")
+        found += matching
+    return config.with_parts(
+        [each for each in displays if each in found or kind_of(each) == "rviz/Grid"], config.options(), None
+    )
+
+
+def _names(display: dict[str, Any]) -> set[str]:
+    """Return the names by which a display can be selected."""
+    kind = kind_of(display)
+    topics = {str(value) for key, value in display.items() if key.endswith("Topic") and isinstance(value, str)}
+    return {str(display.get("Name", "")), kind, kind.rpartition("/")[2], *topics}
 
 
 def _display(kind: type[TopicDisplay], topic: str) -> dict[str, Any]:

@@ -128,7 +128,7 @@ def point(given: Point) -> Floats:
 
 
 class PublishingTool(Tool):
-    """A tool that publishes on a topic. Its publisher exists from the beginning, as in RViz."""
+    """A tool that publishes on a topic. Its `publisher` exists from the beginning, as in RViz."""
 
     message: ClassVar[str] = ""
 
@@ -140,12 +140,12 @@ class PublishingTool(Tool):
         from rosmini.msgs import message_class
 
         self.type = message_class(self.message)
-        self._publisher = self.scene.node.publisher(self["Topic"], self.type, queue_size=1)
+        self.publisher = self.scene.node.publisher(self["Topic"], self.type, queue_size=1)
 
     def __setitem__(self, name: str, value: Any) -> None:
         super().__setitem__(name, value)
         if name == "Topic":
-            self._publisher.unregister()
+            self.publisher.unregister()
             self._advertise()
 
     def stamped(self) -> Any:
@@ -157,7 +157,7 @@ class PublishingTool(Tool):
 
     def publish(self, message: Any) -> None:
         """Publish a message."""
-        self._publisher.publish(message)
+        self.publisher.publish(message)
 
 
 class PoseTool(PublishingTool):

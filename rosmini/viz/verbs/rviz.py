@@ -25,9 +25,10 @@ DURATION = 2.0
 
 def _parser() -> Parser:
     parser = Parser(
-        "rviz", "rosmini rviz [options]",
-        "What RViz shows: displays of a .rviz file, or one for each topic that can be shown, and the status of each.",
-        example="  rosmini rviz -f map --still",
+        "rviz", "rosmini rviz [options] [DISPLAY ...]",
+        "What RViz shows: displays of a .rviz file, or one for each topic that can be shown, and the status of each. "
+        "Words select some of them by name, class or topic.",
+        example="  rosmini rviz -f map --still RobotModel /map /scan",
     )  # fmt: skip
     parser.add_option("-d", "--display-config", metavar="FILE", help="a .rviz file")
     parser.add_option("-f", "--fixed-frame", metavar="FRAME", help="the frame in which everything is drawn")
@@ -50,17 +51,20 @@ def _parser() -> Parser:
 @TOOL.verb("show what there is", parser=_parser)
 def show(given: Values, call: Call) -> Result:
     """Open the window, or listen for some time and show the scene."""
-    from rosmini.viz.rviz import Scene, look_from, still, turnable
-    from rosmini.viz.rviz.suggestions import suggested
+    from rosmini.viz.rviz import Config, Scene, look_from, still, turnable
+    from rosmini.viz.rviz.suggestions import selected, suggested
 
-    if given.words:
-        _parser().error(f"rviz takes no words but options, not {given.words[0]!r}; a file is given by -d FILE")
-    config, graph = given.display_config, call.graph
+    graph = call.graph
     is_still = given.still or given.view or given.output or given.title or given.duration is not None
+    if given.live and given.words:
+        _parser().error(f"the window has boxes to select displays: leave out {' '.join(given.words)}, or --live")
     if given.live or (call.in_terminal and not is_still):
         return _live(given, call)
     duration = DURATION if given.duration is None else max(given.duration, 0.0)
-    chosen = suggested(graph, given.fixed_frame) if config is None else config
+    file = given.display_config
+    chosen = suggested(graph, given.fixed_frame) if file is None else Config.read(file)
+    if given.words:
+        chosen = selected(chosen, given.words)
     with Scene(graph, chosen, fixed_frame=given.fixed_frame) as scene:
         for _ in Span.of(graph, round(duration * 1e9)).every(100_000_000):
             pass

@@ -5,7 +5,7 @@ from __future__ import annotations
 from rosmini.msgs.geometry_msgs.msg import PoseStamped
 from rosmini.msgs.nav_msgs.msg import OccupancyGrid, Odometry, Path
 from rosmini.msgs.sensor_msgs.msg import LaserScan
-from rosmini.viz.rviz.suggestions import Suggestions, suggested
+from rosmini.viz.rviz.suggestions import Suggestions, selected, suggested
 
 
 def names(config):
@@ -19,6 +19,15 @@ def test_the_truth_of_a_simulator_is_shown_where_its_frame_is(stage):
     assert set(names(suggested(stage.graph))) == {"Grid", "/odom", "TF"}
     stage.publish("/map", OccupancyGrid(), "map")
     assert {"/base_pose_ground_truth", "/tb3_1/base_pose_ground_truth"} < set(names(suggested(stage.graph)))
+
+
+def test_displays_are_selected_by_class_name_or_topic(stage):
+    for topic in ("/scan", "/front/scan"):
+        stage.publish(topic, LaserScan(), "base_link")
+    stage.publish("/map", OccupancyGrid(), "map")
+    found = suggested(stage.graph)
+    assert names(selected(found, ["/map"])) == ["Grid", "/map"]
+    assert names(selected(found, ["LaserScan"])) == ["Grid", "/front/scan", "/scan"]
 
 
 def test_frames_do_not_hide_a_small_robot(stage):

@@ -14,6 +14,7 @@ from rosmini.viz.rviz import ConfigError, RvizView
 from rosmini.viz.rviz.window import RVizWindow
 from rosmini.viz.verbs.rqt import Shown
 from rosmini.viz.verbs.rviz import TOOL
+from rosmini.viz.view import ViewError
 
 
 @pytest.fixture
@@ -69,7 +70,9 @@ def test_live_it_is_a_window_that_goes_on(graph: Graph) -> None:
 
 
 def test_what_makes_no_sense(graph: Graph) -> None:
-    with pytest.raises(UsageError, match="-d FILE"):
+    with pytest.raises(ViewError, match="-d FILE"):
         TOOL.run("my.rviz", graph=graph)
+    with pytest.raises(UsageError, match="--live"):
+        TOOL.run("--live", "Grid", graph=graph)
     with pytest.raises(ConfigError, match=r"nowhere\.rviz"):
         TOOL.run("-d", "nowhere.rviz", graph=graph)

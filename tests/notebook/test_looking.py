@@ -1,0 +1,92 @@
+"""``%show``, ``%record``, ``%replay`` and ``%click``, and the option ``--quiet``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from .conftest import Notebook
+
+ROBOT = "%rosrun rosmini_sim simulator _world:=room"
+DRIVE = "%rostopic pub -1 /cmd_vel geometry_msgs/Twist '{linear: {x: 0.2}}'"
+
+
+def test_a_robot_is_shown_recorded_and_replayed(notebook: Notebook) -> None:
+    notebook.ok(f"import rosmini\n{ROBOT}")
+    assert "burger: pose (0.00, 0.00" in notebook.ok("%show")
+    assert "3D: burger" in notebook.ok("%show /simulator --3d")
+    notebook.ok(f"%record\n{DRIVE}\nrosmini.wait(2)")
+    written = notebook.ok("run = %replay\nprint(round(run.recording.truth[-1][0], 1))")
+    assert "Replay of burger in room" in written and "0.1\n" in written
+    assert "3D replay: burger" in notebook.ok("%replay --3d")  # the same recording again
+
+
+def test_topics_become_layers_of_the_replay(notebook: Notebook) -> None:
+    notebook.ok(f"import rosmini\n{ROBOT}\n%record")
+    notebook.ok("%rostopic pub -1 /path nav_msgs/Path '{header: {frame_id: odom}, poses: [{}, {}]}'\nrosmini.wait(1)")
+    assert "/path" not in notebook.ok("%replay")
+    assert "/path" in notebook.ok("%replay /path")
+    assert "/path" in notebook.ok('%replay "*"')
+
+
+def test_turtles_of_two_windows_are_replayed_side_by_side(notebook: Notebook) -> None:
+    notebook.ok("import rosmini\n%rosrun turtlesim turtlesim_node\n%rosrun turtlesim turtlesim_node __ns:=/b")
+    written = notebook.ok("%record\nrosmini.wait(1)\n%replay")
+    assert "2 runs" in written and "/b/turtlesim" in written
+    assert "turtle1: pose" in notebook.ok("%show b/turtlesim")
+    assert "/b/turtlesim, /turtlesim" in notebook.fails("%show")
+    notebook.ok(ROBOT)
+    assert "either turtles or robots" in notebook.fails("%record")
+
+
+def test_a_bag_is_replayed(notebook: Notebook, tmp_path: Path) -> None:
+    bag = tmp_path / "drive.bag"
+    notebook.ok(f"{ROBOT}\n%rosbag record --duration 1 -O {bag} /odom\nimport rosmini\nrosmini.wait(2)")
+    assert "/odom" in notebook.ok(f"%replay --robot burger {bag}")
+
+
+@pytest.mark.parametrize(
+    ("cell", "named"),
+    [
+        ("%show", "%rosrun rosmini_sim simulator"),
+        ("%replay", "%record"),
+        (f"{ROBOT}\n%show /simulater", "/simulator"),
+        (f"{ROBOT}\n%show /rosout", "/simulator"),
+        ("%rosrun turtlesim turtlesim_node\n%show --3d", "/turtlesim"),
+        ('%click "2D Nav Gaol" 1 2 0', "2D Nav Goal"),
+        ('%click "2D Nav Goal" 1', "yaw"),
+        ("%click 1 2", "tool"),
+    ],
+)
+def test_an_error_names_what_to_do(notebook: Notebook, cell: str, named: str) -> None:
+    assert named in notebook.fails(cell)
+
+
+def test_a_click_is_a_message_of_rviz_and_waits_for_a_subscriber(notebook: Notebook) -> None:
+    notebook.ok(
+        "import rosmini\nimport rospy\nfrom geometry_msgs.msg import PoseStamped, PointStamped\n"
+        "rospy.init_node('reader')\ngoals, points = [], []\n"
+        "_ = rospy.Subscriber('/move_base_simple/goal', PoseStamped, goals.append)\n"
+        "_ = rospy.Subscriber('/clicked_point', PointStamped, points.append)"
+    )
+    written = notebook.ok('done = %click "2D Nav Goal" -2.5 3 1.57 -f world')
+    assert "Frame:world, Position(-2.500, 3.000, 0.000)" in written and "Angle: 1.570" in written
+    notebook.ok('assert "1.570" in done.text\n%click "Publish Point" 1 -2\nrosmini.wait(0.1)')
+    assert notebook.ok("print(goals[0].header.frame_id, goals[0].pose.position.x)") == "world -2.5\n"
+    assert notebook.ok("print(points[0].header.frame_id, points[0].point.y)") == "odom -2.0\n"
+    assert "/rviz" in notebook.ok("%rosnode list")
+    assert "/rviz" not in notebook.ok("%roscore\n%rosnode list")
+
+
+def test_quiet_hides_what_programs_log_while_they_start(notebook: Notebook) -> None:
+    launch = "%roslaunch rosmini_sim navigation.launch world:=room"
+    assert "[WARN]" in notebook.ok(launch)
+    assert notebook.ok(f"%roscore\n{launch} --quiet") == notebook.ok("%roscore")
+    assert notebook.ok("%rosrun turtlesim turtlesim_node --quiet") == ""
+    log = "rospy.logwarn('early')\nrospy.sleep(1)\nrospy.loginfo('i')\nrospy.logwarn('w')"
+    late = f"import rospy\nrospy.init_node('n')\n{log}"
+    assert notebook.ok(f"%%node late.py --quiet\n{late}") == ""
+    written = notebook.ok("import rosmini\nrosmini.wait(2)")
+    assert "[WARN]" in written and "w\n" in written and "[INFO]" not in written
+    assert "ZeroDivisionError" in notebook.ok("%%node broken.py --quiet\n1 / 0")
