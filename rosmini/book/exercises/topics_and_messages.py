@@ -1,132 +1,178 @@
-"""Checks of the exercises in the chapter Topics and messages."""
+"""Checks of the exercises in the chapter Topics and messages: each runs a script with a separate robot."""
 
 from __future__ import annotations
 
-import struct
-from itertools import pairwise
+import math
 from typing import Any
 
-from rosmini.book.checks import exercise, expect, expect_fields, expect_heard, expect_node, expect_type
-from rosmini.core.errors import RosminiError
-from rosmini.core.graph import Graph
-from rosmini.msgs import define_message
-from rosmini.msgs.std_msgs.msg import String
+from rosmini.book.checks import Script, exercise, expect
+from rosmini.book.trials import Trial
+from rosmini.core.time import Duration
+from rosmini.msgs.geometry_msgs.msg import Twist, TwistStamped
+from rosmini.msgs.sensor_msgs.msg import LaserScan
+from rosmini.msgs.std_msgs.msg import Bool
 
-# ---- wheel_type: a type of one's own ----
+# ---- face: turn towards the nearest thing ----
 
-WHEEL = """\
-uint8 LEFT=0
-uint8 RIGHT=1
-Header header
-uint8 side
-float64 angle
-float32[4] speeds
-"""
+STARTS = (("arena", "_x:=0.0", "_y:=1.2", "_yaw:=0.4"), ("room", "_x:=0.4", "_y:=0.2", "_yaw:=2.0"))
 
 
-@exercise("wheel_type", praise="Every definition with these lines has the same md5 sum.")
-def definition(answer: Any) -> None:
-    """The definition of a message with constants, a header, and an array of a fixed length."""
-    expect_type(answer, str, "definition is", "a string", 'write it between """three quotes"""')
-    try:
-        cls = define_message("my_robot/Wheel", answer)
-    except RosminiError as error:
-        expect(False, f"This is not a message definition: {error}")
-        return
-    wanted = define_message("my_robot/Wheel", WHEEL)
-    given = {constant.name: (constant.type, constant.value) for constant in cls._spec.constants}
-    for constant in wanted._spec.constants:
+@exercise("face", praise="From two starts, it turned to the nearest thing and stopped there.")
+def face(answer: Script) -> Any:
+    """The robot turns on the spot until the smallest range is straight ahead."""
+    return [_faces(answer, *start) for start in STARTS][-1]
+
+
+def _faces(answer: Script, world: str, *start: str) -> Any:
+    scans: list[Any] = []
+    with Trial(world, *start) as trial:
+        trial.graph.node("listener").subscriber("scan", LaserScan, scans.append)
+        before = trial.robot.truth()
+        trial.start(answer)
+        trial.run(40.0)
+        turned = trial.robot.truth()
+        trial.run(2.0)
+        after = trial.robot.truth()
+        trial.expect_no_errors()
+        moved = math.hypot(after[0] - before[0], after[1] - before[1])
+        expect(moved < 0.05, f"The robot drove {moved:.2f} m; it should turn on the spot.", "set only angular.z")
+        expect(abs(after[2] - before[2]) > 0.05, "The robot did not turn.", "publish a command for every scan")
         expect(
-            given.get(constant.name) == (constant.type, constant.value),
-            f"There is no constant {constant.name} of type {constant.type} with the value {constant.value}.",
-            "a constant is 'type NAME=value'",
+            abs(after[2] - turned[2]) < 0.02,
+            "The robot is still turning after 40 s.",
+            "publish a command of zero when the nearest beam is one of the first or of the last few",
         )
-    expect_fields(cls, wanted, "definition")
-    expect(cls._md5sum == wanted._md5sum, "It has a constant that the task does not mention.")
-
-
-# ---- fingerprint: md5 sums ----
-
-TEXTS = (
-    "string data",
-    "float64 x\nfloat64 y\nfloat64 z\n",
-    "# a comment\n\nint8   a   # another\n\n  uint16[] b\n",
-    "float32 volts\nuint8 LOW=10\nuint8 HIGH = 90 # percent\nstring name\n",
-    "# a=b is no constant here\nint32 id # nor=here\n",
-)
-
-
-@exercise("fingerprint", praise="Add nested types, and you have exactly what ROS compares when nodes connect.")
-def fingerprint(answer: Any) -> None:
-    """The md5 sum of a definition without nested types."""
-    hints = (
-        "the function md5(...) of this chapter returns the digits for a text",
-        "remove the newline at the end",
-        "remove comments and empty lines, and reduce several spaces to one",
-        "put constants first, without spaces around the =",
-        "everything after a # is a comment, even if it contains a =",
-    )
-    for text, hint in zip(TEXTS, hints, strict=True):
-        found = answer(text)
-        expect(isinstance(found, str), f"It returned {found!r}, not a string of 32 digits.", hints[0])
-        expect(found == define_message("demo/Type", text)._md5sum, f"It is not the md5 sum of {text!r}.", hint)
-
-
-# ---- decode: bytes ----
-
-TABLES: tuple[dict[str, float], ...] = ({"left": 1.5, "right": -2.0}, {}, {"größe": 0.1, "": 3.0, "température": -40.0})
-
-
-def _encode(table: dict[str, float]) -> bytes:
-    parts = [struct.pack("<I", len(table))]
-    parts += [struct.pack("<I", len(name.encode())) + name.encode() for name in table]
-    return b"".join(parts) + struct.pack(f"<I{len(table)}d", len(table), *table.values())
-
-
-@exercise("decode", praise="You can now decode messages from a node in any language.")
-def decode(answer: Any) -> None:
-    """The names and values of a message, from its bytes."""
-    for table in TABLES:
-        data = _encode(table)
-        found = answer(data)
-        expect_type(found, dict, "It returned", "a dictionary")
+        ranges = list(scans[-1].ranges)
+        beam = ranges.index(min(ranges))
+        angle = min(beam, 360 - beam)
+        side = "left" if beam < 180 else "right"
         expect(
-            found == table,
-            f"For the {len(data)} bytes of {table} it returned {found}.",
-            "read the count, then each name after its length in bytes, then the count again, then the numbers",
+            angle <= 12,
+            f"The robot stopped, and the nearest thing is {angle} degrees to the {side}.",
+            "turn left while the nearest beam is one of 1 to 180, and right otherwise",
         )
+        return trial.view()
 
 
-# ---- board: many writers ----
+# ---- fresh: ignore old commands ----
+
+LATE_S = (0.0, 0.3, 2.0, 0.7, 0.0)
+"""Ages of the commands [s]: those over 0.5 s are too old."""
 
 
-@exercise("board", praise="The topic is latched, so every new subscriber receives the board at once.")
-def board(answer: Any) -> None:
-    """A node that publishes the latest note of each writer on a latched topic."""
-    early: list[str] = []
-    late: list[str] = []
-    with Graph() as graph:
-        answer(graph)
-        expect_node(graph, "/board")
-        graph.node("reader").subscriber("board", String, lambda message: early.append(message.data))
-        writers = {name: graph.node(name).publisher("note", String) for name in ("ben", "anna")}
-        graph.run(0.1)
-        expect_heard(writers["ben"])
-        for writer, note in (("ben", "here"), ("anna", "back at ten"), ("ben", "gone")):
-            writers[writer].publish(note)
-            graph.run(0.1)
-        graph.node("late_reader").subscriber("board", String, lambda message: late.append(message.data))
-        graph.run(0.1)
-    steps = ["/ben: here", "/anna: back at ten; /ben: here", "/anna: back at ten; /ben: gone"]
-    for before, after in pairwise(["", *steps]):
-        place = steps.index(after)
-        found = early[place] if place < len(early) else None
+@exercise("fresh", praise="Late commands stop the robot, so it never obeys an operator who saw another place.")
+def fresh(answer: Script) -> Any:
+    """The node passes stamped commands on, and stops the robot if one is too old."""
+    got: list[tuple[float, float]] = []
+    with Trial("arena") as trial:
+        trial.start(answer)
+        listener, operator = trial.graph.node("listener"), trial.graph.node("operator")
+        listener.subscriber("cmd_vel", Twist, lambda m: got.append((m.linear.x, m.angular.z)))
+        remote = operator.publisher("remote_vel", TwistStamped, queue_size=10)
+        trial.run(2.0)
+        expect(not got, "It sent a command without a message on /remote_vel.", "publish only in the callback")
+        expect(remote.num_connections(), "No node subscribes to /remote_vel.", "keep the stub's last lines")
+        for late in LATE_S:
+            for _ in range(10):
+                command = TwistStamped()
+                command.header.stamp = operator.now() - Duration.from_sec(late)
+                command.twist.linear.x, command.twist.angular.z = 0.1, 0.5
+                before = len(got)
+                remote.publish(command)
+                trial.run(0.1)
+                trial.expect_no_errors()
+                expect(len(got) == before + 1, f"For one command it sent {len(got) - before}.", "publish one for each")
+                wanted = (0.0, 0.0) if late > 0.5 else (0.1, 0.5)
+                expect(
+                    got[-1] == wanted,
+                    f"For a command that was {late:g} s old it sent {got[-1][0]:g} m/s, {got[-1][1]:g} rad/s.",
+                    "compare rospy.Time.now() - command.header.stamp with rospy.Duration(0.5)",
+                )
+        return trial.view()
+
+
+# ---- blocked: a latched state ----
+
+
+@exercise("blocked", praise="It published twice in the whole drive, and a late node still knew the state.", gaps=2)
+def blocked(answer: Script) -> Any:
+    """The node publishes on a latched topic whether the way is blocked, when that changes."""
+    early: list[bool] = []
+    late: list[bool] = []
+    with Trial("room", "_x:=1.5") as trial:
+        listener, driver = trial.graph.node("listener"), trial.graph.node("driver")
+        listener.subscriber("blocked", Bool, lambda m: early.append(m.data))
+        wheels = driver.publisher("cmd_vel", Twist, queue_size=1)
+        trial.start(answer)
+        trial.run(2.0)
+        trial.expect_no_errors()
+        expect(early, "It published nothing on /blocked.", "the publisher has the type Bool and the name blocked")
+        expect(early[0] is False, "It says that the way is blocked, and the wall is 1.8 m away.")
+        for _ in range(75):
+            command = Twist()
+            command.linear.x = 0.2
+            wheels.publish(command)
+            trial.run(0.1)
+        wheels.publish(Twist())
+        trial.run(1.0)
+        expect(early[-1] is True, "The wall is 0.3 m ahead, and it says that the way is free.", "use scan.ranges[0]")
         expect(
-            found == after,
-            f"After {place + 1} of three notes the board says {found!r}, not {after!r}.",
-            "keep a dictionary from the writer's name to its last note"
-            if before
-            else "the writer's name is message._connection_header['callerid']",
+            early == [False, True],
+            f"It published {len(early)} times while the state changed once.",
+            "compare the state with the last one, and store it: last = ...",
         )
-    expect(len(early) == len(steps), f"It published {len(early)} times for three notes.")
-    expect(late == steps[-1:], f"A subscriber that starts late receives {late!r}.", "publish with latch=True")
+        trial.graph.node("late_listener").subscriber("blocked", Bool, lambda m: late.append(m.data))
+        trial.run(0.5)
+        expect(late == [True], f"A node that starts late receives {late}, not [True].", "publish with latch=True")
+        return trial.view()
+
+
+# ---- priority: one of two sources ----
+
+
+@exercise("priority", praise="The operator took over at once, and the navigation came back a second later.", gaps=2)
+def priority(answer: Script) -> Any:
+    """The node drops the navigation's commands for a second after each command of the joystick."""
+    got: list[tuple[float, float]] = []
+    with Trial("arena", "_x:=-1.5", "_y:=-1.0") as trial:
+        trial.start(answer)
+        graph = trial.graph
+        graph.node("listener").subscriber("cmd_vel", Twist, lambda m: got.append((m.linear.x, m.angular.z)))
+        joystick = graph.node("joystick").publisher("joy_vel", Twist, queue_size=10)
+        navigation = graph.node("navigation").publisher("nav_vel", Twist, queue_size=10)
+        trial.run(1.0)
+        for publisher, topic in ((joystick, "/joy_vel"), (navigation, "/nav_vel")):
+            expect(publisher.num_connections(), f"No node subscribes to {topic}.", "keep the stub's last lines")
+        ahead, turn = (0.2, 0.0), (0.0, 0.8)
+
+        def send(held: bool, tenths: int) -> list[tuple[float, float]]:
+            got.clear()
+            for _ in range(tenths):
+                for publisher, (speed, rate) in ((navigation, ahead), (joystick, turn))[: 1 + held]:
+                    command = Twist()
+                    command.linear.x, command.angular.z = speed, rate
+                    publisher.publish(command)
+                trial.run(0.1)
+            trial.expect_no_errors()
+            return got
+
+        expect(
+            send(False, 20) == [ahead] * 20,
+            "While nobody held the joystick, it did not pass on every command of the navigation.",
+            "without any command of the joystick, on_navigation publishes each command",
+        )
+        held = send(True, 20)
+        passed = [command for command in held if command == turn]
+        expect(len(passed) == 20, f"Of 20 commands of the joystick it passed on {len(passed)}.", "publish each of them")
+        expect(
+            held.count(ahead) <= 1,
+            "It passed on commands of the navigation while somebody held the joystick.",
+            "remember rospy.get_time() in on_joystick, and compare in on_navigation",
+        )
+        expect(not send(False, 7), "It let the navigation drive 0.7 s after the last command of the joystick.")
+        expect(
+            len(send(False, 10)) in range(6, 9),
+            "After one second without the joystick it does not pass on the navigation's commands again.",
+            "the time must be that of the last command of the joystick, not of the navigation",
+        )
+        return trial.view()

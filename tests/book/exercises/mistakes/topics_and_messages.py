@@ -1,120 +1,121 @@
-"""Wrong answers to the exercises of the chapter Topics and messages."""
+"""Wrong answers to the exercises of the chapter Topics and messages: right ones with a fault put in."""
 
 from __future__ import annotations
 
-import hashlib
-import struct
-from typing import TYPE_CHECKING, Any
+from .nodes_and_master import wrong
 
-from rosmini.book.exercises.topics_and_messages import WHEEL
-from rosmini.core.graph import Graph
-from rosmini.msgs import define_message
-from rosmini.msgs.std_msgs.msg import String
+FACE = """
+import rospy
+from geometry_msgs.msg import Twist
+from sensor_msgs.msg import LaserScan
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
+def on_scan(scan):
+    command = Twist()
+    nearest = scan.ranges.index(min(scan.ranges))
+    if 5 < nearest <= 180:
+        command.angular.z = 0.3
+    elif 180 < nearest < 355:
+        command.angular.z = -0.3
+    cmd_vel.publish(command)
 
+rospy.init_node("face")
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+rospy.Subscriber("scan", LaserScan, on_scan, queue_size=1)
+rospy.spin()
+"""
 
-def _board(
-    *, latch: bool = True, ordered: bool = True, name: str = "board", between: str = "; ", keep: bool = True
-) -> Callable[[], Any]:
-    def start(graph: Graph) -> None:
-        node = graph.node(name)
-        board = node.publisher("board", String, queue_size=10, latch=latch)
-        notes: dict[str, str] = {}
+FRESH = """
+import rospy
+from geometry_msgs.msg import Twist, TwistStamped
 
-        def pin(message: Any) -> None:
-            if not keep:
-                notes.clear()
-            notes[message._connection_header["callerid"]] = message.data
-            board.publish(between.join(f"{who}: {notes[who]}" for who in (sorted(notes) if ordered else notes)))
+def on_command(command):
+    age = rospy.Time.now() - command.header.stamp
+    if age > rospy.Duration(0.5):
+        cmd_vel.publish(Twist())
+    else:
+        cmd_vel.publish(command.twist)
 
-        node.subscriber("note", String, pin)
+rospy.init_node("fresh")
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+rospy.Subscriber("remote_vel", TwistStamped, on_command)
+rospy.spin()
+"""
 
-    return lambda: start
+BLOCKED = """
+import rospy
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import Bool
 
+last = None
 
-def _wheel_but(old: str, new: str) -> Callable[[], Any]:
-    return lambda: WHEEL.replace(old, new)
+def on_scan(scan):
+    global last
+    blocked = scan.ranges[0] < 0.5
+    if blocked != last:
+        publisher.publish(blocked)
+        last = blocked
 
+rospy.init_node("watch")
+publisher = rospy.Publisher("blocked", Bool, queue_size=1, latch=True)
+rospy.Subscriber("scan", LaserScan, on_scan, queue_size=1)
+rospy.spin()
+"""
 
-def _lines(text: str) -> list[str]:
-    return [line.partition("#")[0].strip() for line in text.splitlines() if line.partition("#")[0].strip()]
+PRIORITY = """
+import rospy
+from geometry_msgs.msg import Twist
 
+last_joystick = 0.0
 
-def _md5(lines: list[str]) -> str:
-    return hashlib.md5("\n".join(lines).encode(), usedforsecurity=False).hexdigest()
+def on_joystick(command):
+    global last_joystick
+    last_joystick = rospy.get_time()
+    cmd_vel.publish(command)
 
+def on_navigation(command):
+    if rospy.get_time() - last_joystick > 1.0:
+        cmd_vel.publish(command)
 
-def _squeezed(line: str) -> str:
-    left, equals, value = line.partition("=")
-    return " ".join(left.split()) + equals + value.strip()
-
-
-def _as_they_come(text: str) -> str:
-    return _md5([_squeezed(line) for line in _lines(text)])
-
-
-def _spaces_kept(text: str) -> str:
-    return _md5(sorted(_lines(text), key=lambda line: "=" not in line))
-
-
-def _fields_only(text: str) -> str:
-    return _md5([_squeezed(line) for line in _lines(text) if "=" not in line])
-
-
-def _in_capitals(text: str) -> str:
-    return str(define_message("demo/Type", text)._md5sum).upper()
-
-
-def _decoder(kind: str = "d", *, order: str = "<", letters: bool = False) -> Callable[[], Any]:
-    def decode(data: bytes) -> dict[str, float]:
-        (count,) = struct.unpack_from(f"{order}I", data)
-        offset, names = 4, []
-        for _ in range(count):
-            (length,) = struct.unpack_from(f"{order}I", data, offset)
-            name = data[offset + 4 : offset + 4 + length].decode()
-            names.append(name)
-            offset += 4 + (len(name) if letters else length)
-        return dict(zip(names, struct.unpack_from(f"{order}{count}{kind}", data, offset + 4), strict=True))
-
-    return lambda: decode
+rospy.init_node("priority")
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+rospy.Subscriber("joy_vel", Twist, on_joystick)
+rospy.Subscriber("nav_vel", Twist, on_navigation)
+rospy.spin()
+"""
 
 
 MISTAKES = {
-    "wheel_type": [
-        _wheel_but("uint8 LEFT=0\n", ""),
-        _wheel_but("RIGHT=1", "RIGHT=2"),
-        _wheel_but("uint8 LEFT", "int8 LEFT"),
-        _wheel_but("float64", "float32"),
-        _wheel_but("float32[4]", "float32[]"),
-        _wheel_but("uint8 side\nfloat64 angle\n", "float64 angle\nuint8 side\n"),
-        _wheel_but("Header header", "Header head"),
-        _wheel_but("float32[4] speeds", "float32[4] speeds\nbool slips"),
-        _wheel_but("float64", "double"),
-        lambda: 42,
+    "face": [
+        wrong("face.py", FACE, "min(scan.ranges)", "max(scan.ranges)"),
+        wrong("face.py", FACE, "= -0.3", "= 0.3"),
+        wrong("face.py", FACE, "5 < nearest <= 180", "nearest <= 180"),
+        wrong("face.py", FACE, "angular.z = 0.3", "linear.x = 0.1"),
+        wrong("face.py", FACE, "5 < nearest", "60 < nearest"),
+        wrong("face.py", FACE, "    cmd_vel.publish(command)\n"),
+        wrong("face.py", FACE, "scan.ranges.index", "scan.range.index"),
     ],
-    "fingerprint": [
-        lambda: lambda text: hashlib.md5(text.encode(), usedforsecurity=False).hexdigest(),
-        lambda: _as_they_come,
-        lambda: _spaces_kept,
-        lambda: _fields_only,
-        lambda: _in_capitals,
-        lambda: lambda _: "",
+    "fresh": [
+        wrong("fresh.py", FRESH, "Duration(0.5)", "Duration(1.0)"),
+        wrong("fresh.py", FRESH, "Duration(0.5)", "Duration(0.2)"),
+        wrong("fresh.py", FRESH, "        cmd_vel.publish(Twist())", "        return"),
+        wrong("fresh.py", FRESH, "age > ", "age < "),
+        wrong("fresh.py", FRESH, '"remote_vel"', '"remote"'),
+        wrong("fresh.py", FRESH, "publish(command.twist)", "publish(command)"),
     ],
-    "decode": [
-        _decoder("f"),
-        _decoder(order=">"),
-        _decoder(letters=True),
-        lambda: lambda _: {"left": 1.5, "right": -2.0},
-        lambda: list,
+    "blocked": [
+        wrong("blocked.py", BLOCKED, ", latch=True"),
+        wrong("blocked.py", BLOCKED, "    if blocked != last:\n", "    if True:\n"),
+        wrong("blocked.py", BLOCKED, "< 0.5", "> 0.5"),
+        wrong("blocked.py", BLOCKED, "ranges[0]", "ranges[180]"),
+        wrong("blocked.py", BLOCKED, '"blocked"', '"is_blocked"'),
+        wrong("blocked.py", BLOCKED, "        last = blocked\n"),
     ],
-    "board": [
-        _board(latch=False),
-        _board(ordered=False),
-        _board(name="notice_board"),
-        _board(between=", "),
-        _board(keep=False),
-        lambda: lambda graph: graph.node("board"),
+    "priority": [
+        wrong("priority.py", PRIORITY, "> 1.0", "> 0.3"),
+        wrong("priority.py", PRIORITY, "> 1.0", "> 3.0"),
+        wrong("priority.py", PRIORITY, "    if rospy.get_time() - last_joystick > 1.0:\n    ", ""),
+        wrong("priority.py", PRIORITY, "    last_joystick = rospy.get_time()\n", "    last_joystick = 9e9\n"),
+        wrong("priority.py", PRIORITY, "rospy.get_time()\n    cmd_vel.publish(command)", "rospy.get_time()"),
+        wrong("priority.py", PRIORITY, '"joy_vel"', '"joystick"'),
     ],
 }
