@@ -107,7 +107,11 @@ def blocked(answer: Script) -> Any:
         trial.run(2.0)
         trial.expect_no_errors()
         expect(early, "It published nothing on /blocked.", "the publisher has the type Bool and the name blocked")
-        expect(early[0] is False, "It says that the way is blocked, and the wall is 1.8 m away.")
+        expect(
+            early[0] is False,
+            "It says that the way is blocked, and the wall is 1.8 m away.",
+            "the way is blocked if scan.ranges[0] is less than 0.5",
+        )
         for _ in range(75):
             command = Twist()
             command.linear.x = 0.2
@@ -169,7 +173,11 @@ def priority(answer: Script) -> Any:
             "It passed on commands of the navigation while somebody held the joystick.",
             "remember rospy.get_time() in on_joystick, and compare in on_navigation",
         )
-        expect(not send(False, 7), "It let the navigation drive 0.7 s after the last command of the joystick.")
+        expect(
+            not send(False, 7),
+            "It let the navigation drive 0.7 s after the last command of the joystick.",
+            "drop its commands while rospy.get_time() is at most one second later",
+        )
         expect(
             len(send(False, 10)) in range(6, 9),
             "After one second without the joystick it does not pass on the navigation's commands again.",
