@@ -56,11 +56,15 @@ class Page(HTMLParser):
         self.within = ""
         self.pictures: list[dict[str, str]] = []
         self.viewers = 0
+        self.ids: set[str] = set()
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         """Look at one element."""
         given = {name: value or "" for name, value in attrs}
         self.within = tag if tag in {"script", "style"} else self.within
+        if given.get("id") in self.ids:
+            self.problems.append(f"an id twice: {given['id']} ({tag})")
+        self.ids.update(filter(None, [given.get("id")]))
         self._look_for_fetches(tag, given)
         if tag == "img" and not given.get("alt", "").strip() and given.get("aria-hidden") != "true":
             self.problems.append(f"an image without a text: {given.get('src', '')[:80]}")

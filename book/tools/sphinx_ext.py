@@ -9,6 +9,7 @@
 - Cells with `%%node`, `%%launch` or `%%terminal` are coloured as what they hold.
 - A caption (`book.tools.captions`) becomes that of the figure before it, or of the table after it.
 - A picture's alternative text in the metadata of its cell replaces the one that the picture made itself.
+- An id that two pictures of a page share, such as that of a clip path, gets a number in the second one.
 - Chapters have the number of their part and of their place in it, from `_toc.yml` alone.
 - The directive `drawing` puts a drawing of `book/static/drawings` into a prose page, with a caption.
 - The directive `stored` shows a figure that a notebook has stored, such as the pad on the cover.
@@ -22,6 +23,7 @@ from __future__ import annotations
 import json
 import re
 import shutil
+from collections import Counter
 from html import escape
 from itertools import pairwise
 from pathlib import Path
@@ -212,6 +214,32 @@ def describe_pictures(app: Sphinx, docname: str, content: list[str]) -> None:
     content[0] = json.dumps(notebook)
 
 
+SVG = re.compile(r"<svg\b.*?</svg>", re.DOTALL)
+ID = re.compile(r'\sid="([^"]+)"')
+
+
+def separate_ids(
+    _app: Sphinx, _page: str, _template: str, context: dict[str, Any], _doctree: nodes.Node | None
+) -> None:
+    """Give each element of a page's SVGs an id that occurs once on the page, and change the references to it.
+
+    Chapters store pictures whose ids derive from the content of the element (`rosmini.viz.themed`), so that the same
+    marker has the same id in each picture, and also where one picture defines it twice.
+    """
+    counts: Counter[str] = Counter()
+
+    def separate(svg: str) -> str:
+        ids = set(ID.findall(svg))
+        counts.update(ids)
+        for old in sorted(ids):
+            first, *others = re.split(rf'\sid="{re.escape(old)}"', svg)
+            new = old if counts[old] == 1 else f"{old}-{counts[old]}"
+            svg = re.sub(rf'#{re.escape(old)}(?=["\)])', f"#{new}", f'{first} id="{new}"{"".join(others)}')
+        return svg
+
+    context["body"] = SVG.sub(lambda found: separate(found[0]), context.get("body", ""))
+
+
 def number_chapters(app: Sphinx, env: BuildEnvironment) -> list[str]:
     """Put the number of its part before the number of each chapter: Sphinx counts in each part from 1.
 
@@ -369,6 +397,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.connect("source-read", describe_pictures)
     app.connect("env-get-updated", number_chapters, priority=900)  # after Sphinx has counted
     app.connect("builder-inited", prepare, priority=1)
+    app.connect("html-page-context", separate_ids)
     app.connect("build-finished", direct_downloads)
     app.connect("build-finished", copy_viewer, priority=998)
     # After every extension has copied its scripts.

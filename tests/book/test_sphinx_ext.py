@@ -79,7 +79,10 @@ print("solved")
 </details>
 """
 
-STORED = "<figure><b>A robot</b></figure>"
+SVG = (
+    '<svg aria-label="a"><path id="rm-1"/><path id="rm-12" clip-path="url(#rm-1)"/><use href="#rm-12"/><path{}/></svg>'
+)
+STORED = f"""<figure><b>A robot</b>{SVG.format(' id="rm-1"')}{SVG.format("")}</figure>"""
 
 
 CONFIGURATION = (
@@ -175,9 +178,15 @@ def test_a_table_has_its_caption_and_label(page):
 
 
 def test_a_stored_figure_is_shown_with_another_caption(page):
-    assert STORED in page
+    assert "<b>A robot</b>" in page
     assert "What the notebook stored" in page
     assert "Its own caption" not in page
+
+
+def test_an_id_occurs_once_on_a_page(page):
+    first, second = re.findall(r'<svg aria-label="a">.*?</svg>', page)
+    assert first == SVG.format("")
+    assert second == first.replace("rm-12", "rm-12-2").replace('rm-1"', 'rm-1-2"').replace("rm-1)", "rm-1-2)")
 
 
 @pytest.mark.parametrize(("url", "text"), [("", "a copy of this repository"), ("https://example.org/r", "(https://")])
