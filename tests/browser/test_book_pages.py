@@ -142,3 +142,54 @@ def test_the_watcher_sees_what_it_is_there_to_see(chromium, watch, tmp_path, htm
     page.goto((tmp_path / "bad.html").as_uri(), wait_until="load")
     assert any(seen in line for line in watcher.seen), watcher.seen
     page.close()
+
+
+SMALLEST_TEXT = """(svg) => Math.min(...Array.from(svg.querySelectorAll("text, tspan"), (text) => {
+  const {a, b, c, d} = text.getScreenCTM() ?? {};
+  return parseFloat(getComputedStyle(text).fontSize) * Math.sqrt(Math.abs(a * d - b * c)) || Infinity;
+}))"""
+UNREADABLE = f"""() => [...document.querySelectorAll(".bd-article svg[role=img]")].filter(
+  (svg) => svg.checkVisibility() && !svg.closest("[data-mounted]") && ({SMALLEST_TEXT})(svg) < 9
+    && !svg.nextElementSibling?.checkVisibility()).length"""
+"""How many pictures have text below 9 px and no button."""
+
+
+@pytest.fixture
+def phone(chromium, watch):
+    context = chromium.new_context(viewport=dict(zip(("width", "height"), WIDTHS["phone"], strict=True)))
+    page = context.new_page()
+    watcher = watch(page)
+    yield page
+    assert watcher.seen == []
+    context.close()
+
+
+@pytest.mark.parametrize("which", ["notebooks/8_use_cases/40_many_turtlebots.html", *nightly("**/*.html")])
+def test_pictures_with_text_below_nine_pixels_open_in_a_larger_view(book_html, phone, which):
+    opened = 0
+    for path in sorted(path for path in book_html.glob(which) if "_static" not in path.parts):
+        phone.goto(path.as_uri())
+        phone.evaluate(IS_DRAWN)
+        assert phone.evaluate(UNREADABLE) == 0, path
+        for button in phone.locator("button.larger:visible").all():
+            button.press("Enter")
+            assert phone.locator("dialog svg").first.evaluate(SMALLEST_TEXT) >= 9, path
+            phone.keyboard.press("Escape")
+            phone.wait_for_function("document.activeElement.matches('svg + button.larger')")
+            opened += 1
+    assert opened
+
+
+def test_a_click_opens_a_picture_too_and_no_button_is_printed_or_on_a_desktop(book_html, phone):
+    phone.goto((book_html / "book" / "ros.html").as_uri())
+    dialog, button = phone.get_by_role("dialog", name="Larger view"), phone.locator("button.larger").first
+    phone.locator("svg.opens").first.click()
+    assert dialog.get_by_role("group", name="Figure 1: Twenty years of ROS").is_visible()
+    dialog.get_by_role("button", name="Close").click()
+    dialog.wait_for(state="hidden")
+    assert button.is_visible()
+    phone.emulate_media(media="print")
+    assert not button.is_visible()
+    phone.emulate_media(media="screen")
+    phone.set_viewport_size({"width": 1280, "height": 900})
+    button.wait_for(state="hidden")
