@@ -141,7 +141,7 @@ ALL_FITS = itertools.product(("book", "live"), ("light", "dark"), WIDTHS)
     ("form", "theme", "width"), [*FITS, *nightly(*(case for case in ALL_FITS if case not in FITS))]
 )
 def test_it_fits_its_page_in_each_theme(write, opened, recording, shared_tmp, form, theme, width):
-    page = opened(write(recording, form=form, theme=theme), width=width)
+    page = opened(write(recording, form=form, theme=theme), width=width, reduced_motion="reduce")
     scrub(page, 6.0)
     assert page.evaluate(SIDEWAYS) <= 0
     assert not page.locator(".rosmini-still").is_visible()
@@ -195,6 +195,32 @@ def test_it_waits_to_be_told_then_plays_and_pauses(write, opened, recording):
     stopped = time_of(page), page.evaluate(PICTURE)
     painted(page)
     assert (time_of(page), page.evaluate(PICTURE)) == stopped
+
+
+@pytest.mark.parametrize(("form", "reduced"), [("book", False), ("book", True), ("live", False)])
+def test_in_the_book_the_first_one_plays_once_when_it_comes_into_view(chromium, write, recording, form, reduced):
+    motion = "reduce" if reduced else "no-preference"
+    page = chromium.new_page(viewport={"width": 390, "height": 844}, reduced_motion=motion)
+    short = recording.window(0.0, 0.5)
+    page.goto(write(short, short, form=form, before='<div style="height: 1500px"></div>'))
+    page.wait_for_function("document.querySelectorAll('.rosmini-replay[data-state=paused]').length === 2")
+    player, other = page.locator(".rosmini-replay").all()
+    painted(page)
+    assert player.get_attribute("data-time") == "0.000"
+    player.locator("canvas").scroll_into_view_if_needed()
+    if form == "book" and not reduced:
+        page.wait_for_function("document.querySelector('.rosmini-replay').dataset.time === '0.500'")
+        assert player.get_attribute("data-state") == "paused"
+        assert player.locator("[role=status]").inner_text() == "", "a screen reader does not speak by itself"
+    other.locator("canvas").scroll_into_view_if_needed()
+    painted(page)
+    player.locator("canvas").scroll_into_view_if_needed()
+    painted(page)
+    states = [each.get_attribute("data-state") for each in (player, other)]
+    assert states == ["paused", "paused"]
+    assert other.get_attribute("data-time") == "0.000"
+    assert player.get_attribute("data-time") == ("0.500" if form == "book" and not reduced else "0.000")
+    page.close()
 
 
 def test_it_stops_at_the_end_and_begins_anew(write, opened, recording):
@@ -330,7 +356,7 @@ def test_layers_can_be_taken_away(write, opened, recording):
 
 
 def test_a_change_of_the_theme_and_of_the_width_is_followed(write, opened, recording):
-    page = opened(write(recording, form="book"))
+    page = opened(write(recording, form="book"), reduced_motion="reduce")
     assert count(page, "page", style.DARK) < 100
     page.evaluate("document.documentElement.dataset.theme = 'dark'")
     page.wait_for_function(f"({COUNT})([document.querySelector('canvas'), [20, 24, 30]]) > 5000")
@@ -381,7 +407,7 @@ def test_it_does_not_run_where_nobody_sees_it(write, opened, recording):
 
 @pytest.mark.parametrize("form", ["book", *nightly("live")])
 def test_several_on_one_page_are_independent(write, opened, recording, form):
-    page = opened(write(recording, recording, recording.window(0.0, 4.0), form=form))
+    page = opened(write(recording, recording, recording.window(0.0, 4.0), form=form), reduced_motion="reduce")
     players = page.locator(".rosmini-replay")
     page.wait_for_function("document.querySelectorAll('.rosmini-replay[data-state]').length === 3")
     players.nth(1).get_by_role("button", name="Step forward").click()
@@ -433,7 +459,7 @@ def test_a_run_of_one_sample_and_one_without_scans(write, opened, recording):
 @pytest.mark.parametrize("form", ["book", *nightly("live")])
 def test_in_print_and_without_scripts_the_still_picture_is_there(write, opened, recording, form):
     address = write(recording, form=form)
-    page = opened(address)
+    page = opened(address, reduced_motion="reduce")
     page.emulate_media(media="print")
     assert page.locator(".rosmini-still svg").is_visible()
     assert not page.locator(".rosmini-replay").is_visible()
@@ -495,7 +521,7 @@ def test_the_theme_of_the_book_does_not_disturb_its_layout(book_html, opened, re
     path.parent.mkdir(parents=True)
     (tmp_path / "_static").symlink_to(book_html / "_static", target_is_directory=True)
     path.write_text(chapter[:begin] + recording.replay().html + chapter[begin:], encoding="utf-8")
-    page = opened(path.as_uri(), width=width, color_scheme="dark")
+    page = opened(path.as_uri(), width=width, color_scheme="dark", reduced_motion="reduce")
     assert page.evaluate(SIDEWAYS) <= 0
     boxes = {
         name: page.locator(f".rosmini-replay {selector}").first.bounding_box()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from rosmini.sim.logo import Logo
 from rosmini.viz.replay import Body, Grid, Grids, Run, Scans, Shape, Shapes, Stroke, Strokes, replay
 
 pytestmark = pytest.mark.browser
@@ -21,8 +22,8 @@ LOOK = """([which, x, y]) => {
 SPY = """() => {
   globalThis.seen = new Map();
   const draw = rosminiCanvas.scaleBar;
-  rosminiCanvas.scaleBar = (view) => {
-    draw(view);
+  rosminiCanvas.scaleBar = (view, ...unit) => {
+    draw(view, ...unit);
     seen.set(view.context.canvas, {view});
   };
 }"""
@@ -160,7 +161,7 @@ def test_the_view_follows_is_moved_and_comes_back_by_keys(page):
     for key in ("f", "PageUp", "PageUp"):
         page.keyboard.press(key)
     assert (player.get_attribute("data-follow"), player.get_attribute("data-zoom")) == ("true", "2.25")
-    assert player.get_by_role("button", name="Follow the robot").get_attribute("aria-pressed") == "true"
+    assert player.get_by_role("button", name="Follow robot").get_attribute("aria-pressed") == "true"
     page.keyboard.press("End")
     painted(page)
     middle = page.evaluate("(({view}) => [view.x(3.0), view.width / 2])(seen.get(document.querySelector('canvas')))")
@@ -211,6 +212,32 @@ def costs() -> Run:
         ),
         bounds=(-1.0, -1.0, 5.0, 3.0),
     )
+
+
+def test_a_player_of_turtles_has_their_units_and_no_question_about_costs(chromium, tmp_path):
+    logo = Logo()
+    logo.run("forward 60 right 90 forward 30")
+    window = Body("turtle1", np.array([0.0, 1.0]), np.array([(5.5, 5.5, 0.0), (7.25, 4.0, 1.5)]), trail=False)
+    views = [
+        logo.drawing.show(),
+        replay(Run("/turtlesim", 0.0, 1.0, (window,), bounds=(0, 0, 11, 11), background="#4556ff")),
+        replay(costs()),
+        replay(Run("strokes", 0.0, 1.0, layers=(Strokes("/pen", (Stroke(np.arange(2.0), np.eye(2)),)),))),
+    ]
+    body = "".join(view.page for view in views)
+    (tmp_path / "page.html").write_text(f"<!DOCTYPE html><meta charset=utf-8>{body}", encoding="utf-8")
+    page = chromium.new_page(viewport={"width": 900, "height": 800})
+    page.goto((tmp_path / "page.html").as_uri())
+    page.wait_for_function("document.querySelectorAll('.rosmini-replay[data-state=paused]').length === 4")
+    for which in range(4):
+        scrub(page, 60.0, which)  # the end
+    players = page.locator(".rosmini-replay").all()
+    assert [player.locator("dd").first.inner_text() for player in players[:3]] == [
+        "[30 60], heading 90", "x 7.25, y 4.00, theta 1.50", "0.00, 0.00 m, 0.0°"
+    ]  # fmt: skip
+    assert ["costs" in player.locator(".rr-keys").inner_text() for player in players] == [False, False, True, False]
+    assert [player.get_by_role("button", name="Follow").count() for player in players] == [1, 1, 1, 0]
+    page.close()
 
 
 def test_a_place_says_what_it_costs_and_why(chromium, tmp_path):

@@ -8,7 +8,7 @@
      watch(canvas, redraw) -> stop()           calls redraw() when the size, the theme or the medium (print) changes.
      theme(element) -> {ink, blue, ...}        the palette that holds for an element.
 
-     clear(view)                               empties it and paints the ground with a line each metre.
+     clear(view, {grid})                       empties it and paints the ground with a line each metre, or without a grid.
      world(view, scene)                        walls and obstacles, with the ground: clear() is not needed. Kept as a
                                                bitmap in the view, so that each further call is one copy,
                                                unless the view says that it is `fleeting`.
@@ -22,7 +22,7 @@
      robot(view, robot, pose, {ghost, colour}) the robot from above; a ghost is an outline: where odometry puts it.
      thing(view, shapes, pose, {ghost})        something that moves: shapes in its own frame, at `pose`; a ghost is an outline.
      label(view, pose, text, {colour, below})  a word under a place, `below` metres under it.
-     scaleBar(view)                            how long a metre is.
+     scaleBar(view, {unit, metre})             the length of some metres, or of another unit of which `metre` make a metre.
 
    A view has: context, width, height (CSS pixels), scale (pixels a metre), theme, x(metres), y(metres) to pixels, and
    metres(px, py) -> [x, y] back. */
@@ -117,10 +117,11 @@
     for (let i = 0; i < count; i += 1) context.lineTo(view.x(points[i][0]), view.y(points[i][1]));
   }
 
-  function clear(view) {
+  function clear(view, { grid = true } = {}) {
     const { context, theme: colours, width, height, scale } = view;
     context.fillStyle = colours.page;
     context.fillRect(0, 0, width, height);
+    if (!grid) return;
     const step = scale >= 12 ? 1 : scale >= 3 ? 5 : 20;
     const [left, top] = view.metres(0, 0);
     const [right, bottom] = view.metres(width, height);
@@ -328,11 +329,12 @@
     context.restore();
   }
 
-  function scaleBar(view) {
-    const { context, theme: colours, scale, width, height } = view;
-    const length = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100].find((metres) => metres * scale >= Math.max(56, width / 9)) ?? 200;
+  function scaleBar(view, { unit = "m", metre = 1 } = {}) {
+    const { context, theme: colours, width, height } = view;
+    const scale = view.scale / metre;
+    const length = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100].find((units) => units * scale >= Math.max(56, width / 9)) ?? 200;
     const [x, y, size] = [8, height - 6, length * scale];
-    const label = length < 1 ? `${Math.round(100 * length)} cm` : `${length} m`;
+    const label = unit === "m" && length < 1 ? `${Math.round(100 * length)} cm` : `${length} ${unit}`;
     context.font = `12px ${FONT}`;
     context.textBaseline = "bottom";
     context.beginPath();

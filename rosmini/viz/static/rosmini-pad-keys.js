@@ -41,7 +41,6 @@
     ],
   };
   const NAMES = { " ": "space", ArrowUp: "↑", ArrowDown: "↓", ArrowLeft: "←", ArrowRight: "→" };
-  const LAST = [["Esc"], "leaves the pad, and the robot stops."];
   const SWITCHES = [4, 5, 6, 7]; // the shoulder buttons of a standard gamepad
   const DEAD_ZONE = 0.08;
 
@@ -104,7 +103,9 @@
   function instructions(map) {
     const line = (parts) =>
       element("span", {}, ...parts.flatMap((part) => [typeof part === "string" ? part : element("kbd", {}, ...part), " "]));
-    return [...HELP[map.name], LAST].flatMap((parts) => [line(parts), " "]); // a line may break between them
+    const driven = map.name === "turtle_teleop_key" ? "turtle" : "robot";
+    const last = [["Esc"], `leaves the pad, and the ${driven} stops.`];
+    return [...HELP[map.name], last].flatMap((parts) => [line(parts), " "]); // a line may break between them
   }
 
   class Gamepads {

@@ -52,6 +52,9 @@
 
   const POSE = [LENGTH, LENGTH, ANGLE];
 
+  /* Logo's steps, as `rosmini.sim.logo` has them: how many make a metre, and where [0 0] is [m]. */
+  const STEPS = { window: { metre: 45, middle: 249.5 / 45 }, floor: { metre: 100, middle: 0 } };
+
   function decode(data) {
     const { bodies, layers } = data;
     const ranges = unpack(data.scans ?? "", data.scan_unit ?? LENGTH);
@@ -59,6 +62,9 @@
     const tracked = (items) => (items ?? []).map((item) => ({ ...item, track: columns(item.track, POSE) }));
     const more = globalThis.rosminiReplayLayers;
     const start = data.start * TIME;
+    const isWindow = data.background !== undefined; // of turtlesim, which has neither metres nor a ground
+    const steps = data.name === "Logo" ? STEPS[isWindow ? "window" : "floor"] : undefined;
+    const turtle = steps ? STEPS.window.metre / steps.metre : isWindow ? 1 : undefined; // length [m]
     return {
       scene: data.scene,
       start,
@@ -75,8 +81,10 @@
       scans: unpack(data.scan_times ?? "", TIME).map((time, i) => [time, ranges.slice(i * beams, (i + 1) * beams)]),
       bounds: data.bounds,
       background: data.background,
+      isWindow,
+      steps,
       notes: data.notes ?? [],
-      bodies: (bodies ?? []).map((each) => more.body(each)),
+      bodies: (bodies ?? []).map((each) => more.body(each, turtle)),
       layers: (layers ?? []).map((each) => more.decode(each)),
     };
   }
@@ -124,7 +132,17 @@
   };
   const half = (angle) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
   const degrees = (angle) => number((half(angle) * 180) / Math.PI, 1);
-  const place = ([x, y, theta]) => `${number(x, 2)}, ${number(y, 2)} m, ${degrees(theta)}\u00b0`;
+
+  /* A pose in the units of the program that a run is about: ROS's, turtlesim's, or Logo's. */
+  function place([x, y, theta], { steps, isWindow } = {}) {
+    if (steps) {
+      const heading = (90 - (theta * 180) / Math.PI) % 360;
+      const [right, up] = [x, y].map((side) => number((side - steps.middle) * steps.metre, 0));
+      return `[${right} ${up}], heading ${number(Math.round(heading + 360) % 360, 0)}`;
+    }
+    if (isWindow) return `x ${number(x, 2)}, y ${number(y, 2)}, theta ${number(half(theta), 2)}`;
+    return `${number(x, 2)}, ${number(y, 2)} m, ${degrees(theta)}\u00b0`;
+  }
 
   /* A pose of a track at a time: tracks are sampled at even times, and straight in between. */
   function poseAt(run, track, time) {
@@ -144,7 +162,7 @@
   /* What is so at a time, in words, [key, label, text]: where the robot is, where odometry puts it, what it was told. */
   function readings(run, time) {
     if (!run.scene) {
-      return run.bodies.slice(0, 4).map((body, i) => [`body${i}`, body.name, body.isThere(time) ? place(body.at(time)) : "not there"]);
+      return run.bodies.slice(0, 4).map((body, i) => [`body${i}`, body.name, body.isThere(time) ? place(body.at(time), run) : "not there"]);
     }
     const [truth, odom] = [poseAt(run, run.truth, time), poseAt(run, run.odom, time)];
     const command = latest(run.commands, time);

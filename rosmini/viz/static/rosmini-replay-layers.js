@@ -5,7 +5,8 @@
      decode(data)             a layer from what `rosmini.viz.replay.layers` (grids, images) made:
                               {name, colour, moment(time, start), draw(view, time, start, slot)}; times are seconds.
      why(layers, time, [x, y])   what a place costs, layer by layer, in words.
-     body(data)               something that moves: {name, colour, at(time), isThere(time), draw(view, time)}.
+     body(data, turtle)       something that moves: {name, colour, at(time), isThere(time), draw(view, time)}; a turtle of this length
+                              [m], if it is one.
 
    A layer shows what came last, and nothing before its first moment. */
 
@@ -301,8 +302,31 @@
   /* An arrow head, in pixels. */
   const HEAD = [[13, 0], [-9, 8], [-5, 0], [-9, -8]];
   const LEAST = 14; // pixels: an outline is not drawn smaller
+  const LEAST_TURTLE = 30; // pixels
 
-  function body(data) {
+  /* A turtle of 45 pixels that faces right, in the colour of its shell. */
+  const LIMBS = new Path2D(`M-14,-2.5L-22,0L-14,2.5ZM12,0a5.5,4.8 0 1,0 11,0a5.5,4.8 0 1,0 -11,0Z${
+    [[4, -12.5], [4, 12.5], [-14, -12.5], [-14, 12.5]].map(([x, y]) => `M${x},${y}a5,3.6 0 1,0 10,0a5,3.6 0 1,0 -10,0Z`).join("")}`);
+  const SHELL = new Path2D("M-15,0a15,12 0 1,0 30,0a15,12 0 1,0 -30,0Z");
+  const PATTERN = new Path2D("M-6,0L-3,-5.2L3,-5.2L6,0L3,5.2L-3,5.2ZM6,0H14M-6,0H-14M3,-5.2L7,-10M3,5.2L7,10M-3,-5.2L-7,-10M-3,5.2L-7,10");
+  const EYES = new Path2D("M17.5,-2.6h0.1M17.5,2.6h0.1");
+  const LONGEST = 45;
+  const DARK = "#1b2733";
+
+  function drawTurtle(context, colour, edge, scale) {
+    context.scale(scale, scale);
+    context.lineCap = context.lineJoin = "round";
+    for (const [path, width, stroke, fill] of [
+      [LIMBS, 3, edge, colour], [SHELL, 3, edge, colour], [LIMBS, 0, "", colour], [SHELL, 2, DARK, colour], [PATTERN, 1.5, DARK],
+      [EYES, 2.4, DARK],
+    ]) {
+      [context.lineWidth, context.strokeStyle, context.fillStyle] = [width, stroke, fill];
+      if (width) context.stroke(path);
+      if (fill) context.fill(path);
+    }
+  }
+
+  function body(data, turtle) {
     const track = columns(data.track, [TIME, LENGTH, LENGTH, ANGLE]);
     const times = track.map((row) => row[0]);
     const [from, until] = [(data.from ?? -Infinity) * TIME, (data.until ?? Infinity) * TIME];
@@ -338,6 +362,11 @@
         context.save();
         context.translate(view.x(pose[0]), view.y(pose[1]));
         context.rotate(-pose[2]);
+        if (turtle) {
+          drawTurtle(context, colour, view.theme.page, Math.max((turtle * view.scale) / LONGEST, LEAST_TURTLE / LONGEST));
+          context.restore();
+          return;
+        }
         context.beginPath();
         for (const [x, y] of data.outline ?? HEAD) context.lineTo(scale * x, -scale * y);
         context.closePath();

@@ -6,7 +6,8 @@
      mount(host, data, options)   puts a player into an empty element; `data` is what `rosmini.viz.replay` made: a run,
                                   or {runs: [...]}; `options` has `title` and `alt`.
 
-   It plays when it is told to. Its root element says how it is: data-state (playing, paused), data-time, data-speed,
+   It plays when it is told to; in the book, the first one of a page plays once when it comes into view, unless the reader
+   prefers less motion. Its root element says how it is: data-state (playing, paused), data-time, data-speed,
    data-zoom, data-follow. The wheel scrolls the page; with Ctrl, or two fingers, it zooms. */
 
 (() => {
@@ -77,7 +78,7 @@ margin:0;padding:.2rem .7rem .6rem}
   const icon = (name) => `<svg viewBox="0 0 24 24" aria-hidden="true"><path d="${ICONS[name]}"/></svg>`;
   const button = (name, label, key) =>
     `<button type="button" data-do="${name}" aria-label="${label}" title="${label} (${key})">${icon(name)}</button>`;
-  const CONTENT = `
+  const content = (followed, asks) => `
 <div class="rr-panes"></div>
 <div class="rr-row rr-bar">
 <span class="rr-buttons">${button("back", "Step back", "left arrow")}${button("play", "Play", "space")}${button("forward", "Step forward", "right arrow")}</span>
@@ -86,19 +87,33 @@ margin:0;padding:.2rem .7rem .6rem}
 <select aria-label="Speed">${SPEEDS.map((speed) => `<option value="${speed}">${speed}\u00d7</option>`).join("")}</select>
 </div>
 <div class="rr-row rr-layers">
-<span class="rr-view">${button("further", "Zoom out", "Page down")}${button("nearer", "Zoom in", "Page up")}${button("follow", "Follow the robot", "f")}${button("reset", "Reset the view", "0")}</span></div>
+<span class="rr-view">${button("further", "Zoom out", "Page down")}${button("nearer", "Zoom in", "Page up")}${followed ? button("follow", "Follow", "f") : ""}${button("reset", "Reset the view", "0")}</span></div>
 <p class="rr-notes" hidden></p>
 <p class="rr-keys"><kbd>space</kbd> <kbd>\u2190</kbd> <kbd>\u2192</kbd> <kbd>Home</kbd> <kbd>End</kbd> time, <kbd>+</kbd> <kbd>\u2212</kbd> speed,
-<kbd>Page up</kbd> <kbd>Page down</kbd> or <kbd>Ctrl</kbd> and wheel zoom, <kbd>Shift</kbd> and arrows or drag move, <kbd>f</kbd> follow, <kbd>0</kbd> reset, <kbd>w</kbd> or <kbd>Shift</kbd> and click: what a place costs</p>
+<kbd>Page up</kbd> <kbd>Page down</kbd> or <kbd>Ctrl</kbd> and wheel zoom, <kbd>Shift</kbd> and arrows or drag move, ${followed ? "<kbd>f</kbd> follow, " : ""}<kbd>0</kbd> reset${
+  asks ? `, <kbd>w</kbd> or <kbd>Shift</kbd> and click: ${asks}` : ""}</p>
 <p role="status"></p>`;
   const PANE = '<h4 hidden></h4><canvas role="img"></canvas><dl></dl>';
+
+  /* What the view can follow, in words; nothing if nothing moves. */
+  const followed = ([run]) => (run.scene ? "the robot" : run.bodies[0]?.name);
+
+  /* What a click on a place asks, in words; nothing if nothing can answer. */
+  function question(runs) {
+    const grids = runs.flatMap((run) => run.layers).filter((layer) => layer.tellAt);
+    return grids.length ? (grids.every((layer) => layer.isMap) ? "what is at a place" : "what a place costs") : "";
+  }
 
   function build(host, options, runs) {
     const root = document.createElement("div");
     root.className = "rosmini-replay";
     root.setAttribute("role", "group");
     root.setAttribute("aria-label", options.title);
-    root.innerHTML = CONTENT;
+    root.innerHTML = content(followed(runs), question(runs));
+    for (const follow of root.querySelectorAll("[data-do=follow]")) {
+      follow.title = `Follow ${followed(runs)} (f)`;
+      follow.setAttribute("aria-label", `Follow ${followed(runs)}`);
+    }
     const view = root.querySelector(".rr-view");
     for (const [key, [label, colour, line]] of switches(runs)) {
       const row = document.createElement("label");
@@ -142,6 +157,7 @@ margin:0;padding:.2rem .7rem .6rem}
       list.innerHTML = readings(run, run.start).map(([key]) => `<div><dt></dt><dd data-read="${key}"></dd></div>`).join("");
       readings(run, run.start).forEach(([, label], i) => { list.querySelectorAll("dt")[i].textContent = label; });
       this.asked = null;
+      this.asks = question([run]);
     }
 
     /* Where the view is: as fitted, or zoomed around `camera.centre`, or around what it follows. */
@@ -202,7 +218,7 @@ margin:0;padding:.2rem .7rem .6rem}
       const view = this.view(camera, time);
       const draw = globalThis.rosminiCanvas;
       if (run.scene && shown.world !== false) draw.world(view, run.scene);
-      else draw.clear(view);
+      else draw.clear(view, { grid: !run.isWindow });
       if (run.background) {
         const [x0, y0, x1, y1] = this.window;
         view.context.fillStyle = run.background;
@@ -214,7 +230,8 @@ margin:0;padding:.2rem .7rem .6rem}
       if (run.scene) this.robots(view, time, shown);
       for (const body of run.bodies) if (shown[`body ${body.name}`]) body.draw(view, time, body.trail);
       for (const layer of run.layers) if (layer.above && wanted(layer)) slot += layer.draw(view, time, run.start, slot) ? 1 : 0;
-      draw.scaleBar(view);
+      if (run.steps) draw.scaleBar(view, { unit: "steps", metre: run.steps.metre });
+      else if (!run.isWindow) draw.scaleBar(view);
       this.answer(view, time);
       for (const [key, , text] of readings(run, time)) this.list.querySelector(`[data-read=${key}]`).textContent = text;
     }
@@ -249,6 +266,7 @@ margin:0;padding:.2rem .7rem .6rem}
   class Player {
     constructor(host, data, options) {
       const runs = (data.runs ?? [data]).map(decode);
+      this.followed = followed(runs);
       this.root = build(host, options, runs);
       const find = (selector) => this.root.querySelector(selector);
       this.find = find;
@@ -271,6 +289,7 @@ margin:0;padding:.2rem .7rem .6rem}
       this.look({});
       this.listen();
       this.paint();
+      if (options.book) this.playInView();
     }
 
     listen() {
@@ -290,7 +309,9 @@ margin:0;padding:.2rem .7rem .6rem}
         Home: () => this.seek(this.start), End: () => this.seek(this.end),
         "+": () => this.changeSpeed(1), "=": () => this.changeSpeed(1),
         "-": () => this.changeSpeed(-1), "_": () => this.changeSpeed(-1),
-        PageUp: deeds.nearer, PageDown: deeds.further, f: deeds.follow, 0: deeds.reset, w: () => this.inquire(),
+        PageUp: deeds.nearer, PageDown: deeds.further, 0: deeds.reset,
+        ...(this.followed ? { f: deeds.follow } : {}),
+        ...(this.panes.some((pane) => pane.asks) ? { w: () => this.inquire() } : {}),
       };
       const moves = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
       root.addEventListener("keydown", (event) => {
@@ -360,14 +381,13 @@ margin:0;padding:.2rem .7rem .6rem}
       for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, (event) => down.delete(event.pointerId));
       canvas.addEventListener("click", (event) => {
         if (moved > CLICK) return;
-        if (event.shiftKey) this.inquire(pane, pane.view(this.camera, this.at(pane)).metres(event.offsetX, event.offsetY));
+        if (event.shiftKey && pane.asks) this.inquire(pane, pane.view(this.camera, this.at(pane)).metres(event.offsetX, event.offsetY));
         else click();
       });
     }
 
     /* Ask what a place costs; without a place, that in the middle of the view, or stop asking. */
-    inquire(pane = this.panes[0], place = null) {
-      if (!pane.run.layers.some((layer) => layer.tellAt)) return this.say("No map or costmap is shown here");
+    inquire(pane = this.panes.find((each) => each.asks), place = null) {
       const middle = pane.middle.map((m, axis) => m + (this.camera.moved ?? this.offset(pane))[axis]);
       pane.asked = place ?? (pane.asked ? null : middle);
       this.ask();
@@ -407,17 +427,32 @@ margin:0;padding:.2rem .7rem .6rem}
       Object.assign(camera, change);
       this.root.dataset.zoom = camera.zoom.toFixed(2);
       this.root.dataset.follow = camera.follow;
-      this.find("[data-do=follow]").setAttribute("aria-pressed", camera.follow);
+      this.find("[data-do=follow]")?.setAttribute("aria-pressed", camera.follow);
       this.find("[data-do=further]").disabled = camera.zoom <= 1;
       this.find("[data-do=reset]").disabled = camera.zoom === 1 && !camera.follow && !camera.moved;
-      if (why === "follow") this.say(camera.follow ? "The view follows the robot" : "The view stands still");
+      if (why === "follow") this.say(camera.follow ? `The view follows ${this.followed}` : "The view stands still");
       if (why === "reset") this.say("The view shows everything");
       if (why === "zoom") this.say(`Zoom ${camera.zoom.toFixed(1)}`);
       this.ask();
     }
 
-    setPlaying(value) {
+    /* Play once when half of it is in view, if it is the first player of the page and the reader has not used it yet. */
+    playInView() {
+      const { start, time } = this;
+      const isFirst = () => document.querySelector(".rosmini-replay") === this.root;
+      const observer = new IntersectionObserver(async (entries) => {
+        if (!entries.at(-1).isIntersecting) return;
+        observer.disconnect();
+        if (document.readyState !== "complete") await new Promise((done) => addEventListener("load", done, { once: true }));
+        if (!isFirst() || this.calm.matches || this.time !== time || this.end <= start) return;
+        this.setPlaying(true, false);
+      }, { threshold: 0.5 });
+      observer.observe(this.panes[0].canvas);
+    }
+
+    setPlaying(value, speak = true) {
       const { start, end } = this;
+      this.isQuiet = !speak;
       if (value && this.time >= end) this.time = start;
       this.playing = value && end > start;
       this.ticked = performance.now();
@@ -426,7 +461,7 @@ margin:0;padding:.2rem .7rem .6rem}
       button.innerHTML = icon(name.toLowerCase());
       button.setAttribute("aria-label", name);
       button.title = `${name} (space)`;
-      this.say(this.playing ? "Playing" : `${this.time >= end ? "End" : "Paused"}: ${this.where()}`);
+      if (speak) this.say(this.playing ? "Playing" : `${this.time >= end ? "End" : "Paused"}: ${this.where()}`);
       this.ask();
     }
 
@@ -475,7 +510,7 @@ margin:0;padding:.2rem .7rem .6rem}
         const passed = Math.min(0.1, Math.max(0, now - this.ticked) / 1000);
         this.time = Math.min(this.end, this.time + this.speed * passed);
         this.ticked = now;
-        if (this.time >= this.end) this.setPlaying(false);
+        if (this.time >= this.end) this.setPlaying(false, !this.isQuiet);
       }
       if (!this.playing || !this.calm.matches || now - this.drawn >= CALM) {
         this.paint();
