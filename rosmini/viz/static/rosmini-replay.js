@@ -59,7 +59,7 @@ display:inline-flex;height:38px;justify-content:center;margin:0;padding:0;width:
 height:32px;margin-left:auto;padding:0 .3rem;width:auto}
 .rosmini-replay :focus-visible{border-radius:6px;outline:2px solid var(--blue);outline-offset:2px}
 .rosmini-replay output,.rosmini-replay dd{font-variant-numeric:tabular-nums;white-space:nowrap}
-.rosmini-replay label{align-items:center;cursor:pointer;display:inline-flex;gap:.35rem;margin:0;min-height:28px}
+.rosmini-replay label{align-items:center;cursor:pointer;display:inline-flex;gap:.35rem;margin:0;max-width:100%;min-height:28px;overflow-wrap:anywhere}
 .rosmini-replay [hidden]{display:none}
 .rosmini-replay .rr-layers{gap:.1rem .8rem;padding-bottom:.1rem}
 .rosmini-replay i{border-top:2px solid;display:inline-block;width:18px}
