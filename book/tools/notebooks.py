@@ -14,6 +14,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from book.tools import reading
 from book.tools.captions import CaptionError, numbered
 from rosmini.viz.embed import BOOK, LIVE, VARIABLE
 
@@ -188,11 +189,15 @@ def first_line(cell: nbformat.NotebookNode) -> str:
 
 
 def clean(notebook: nbformat.NotebookNode) -> None:
-    """Give `notebook` the metadata of all notebooks, in place, without those of a run, and number its captions."""
+    """Give `notebook` the metadata of all notebooks, in place, without those of a run.
+
+    Number its captions, and state the time that it takes.
+    """
     texts = iter(numbered(prose(notebook)))
     for cell in notebook.cells:
         if cell.cell_type == "markdown":
             cell.source = next(texts)
+    reading.state_minutes(notebook)
     notebook.metadata = type(notebook.metadata)(kernelspec=KERNELSPEC, language_info=LANGUAGE)
     for cell in notebook.cells:
         for key in set(cell.metadata) - CELL_METADATA:

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 WORDS_A_MINUTE = 150
 MINUTES_A_CELL = 1
 MINUTES_AN_EXERCISE = 10
+STATED = re.compile(r"\bAllow \d+ minutes\b")
+"""The time, as the first cell of a chapter states it."""
 DIRECTIONS_ID = "how-to-run-this"
 
 
@@ -37,6 +39,11 @@ def minutes(notebook: nbformat.NotebookNode) -> int:
     words, cells = length(notebook)
     total = words / WORDS_A_MINUTE + cells * MINUTES_A_CELL + len(solutions.stubs(notebook)) * MINUTES_AN_EXERCISE
     return -5 * int(-total // 5)
+
+
+def state_minutes(notebook: nbformat.NotebookNode) -> None:
+    """Write the estimated time into the first cell, in place, where it states one."""
+    notebook.cells[0].source = STATED.sub(f"Allow {minutes(notebook)} minutes", notebook.cells[0].source, count=1)
 
 
 def add_directions(notebook: nbformat.NotebookNode, name: str, url: str) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import shlex
-from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -21,7 +20,7 @@ from rosmini.tools.magics import words as words_of
 from .runs import RunKey
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Mapping, Sequence
 
     from rosmini.core.verbs import Result
     from rosmini.ros.launch import Launch
@@ -33,6 +32,8 @@ SHEBANG = "#!/usr/bin/env python3"
 """First line of a script: it replaces the line of the magic, so that line numbers agree."""
 
 STDIN, QUIET = "--stdin", "--quiet"
+STARTUP_NS = 3_000_000_000
+"""Time in which the warnings of a quiet program are hidden [ns of graph time]."""
 
 _PRINTS = re.compile(r"\bprint\b|\blog(?:debug|info|warn|err|fatal)|\blogging\b|\bstd(?:out|err)\b|\binput\b")
 """Text that occurs in scripts that print."""
@@ -98,14 +99,13 @@ def rosrun(session: Session, line: str) -> None:
         return
     graph = session.graph
     session.attach()
-    with _output(session, given.is_quiet) as sink:
-        console = partial(Console, graph.scheduler, stdin="", sink=sink)
-        session.runs.start(
-            RunKey.of(f"{package}/{name}", given.args),
-            name,
-            lambda: NodeHandle(graph, NodeSpec(found, given.args), console),
-            may_print=False,
-        )
+    console = partial(Console, graph.scheduler, stdin="", sink=_output(session, given.is_quiet))
+    session.runs.start(
+        RunKey.of(f"{package}/{name}", given.args),
+        name,
+        lambda: NodeHandle(graph, NodeSpec(found, given.args), console),
+        may_print=False,
+    )
 
 
 def roslaunch(session: Session, line: str) -> Result:
@@ -118,31 +118,24 @@ def roslaunch(session: Session, line: str) -> Result:
     words = words_of(line, "roslaunch", session.shell.user_ns)
     is_quiet = _take(words, QUIET)
     say = (lambda text: None if text.startswith("process[") else session.say(text)) if is_quiet else session.say
+    console = {"stdin": "", "sink": _output(session, is_quiet)}
     results: list[Result] = []
 
-    with _output(session, is_quiet) as sink:
+    def start() -> Launch | None:
+        results.append(run(session.shell, "roslaunch", shlex.join(words), say=say, console=console))
+        return getattr(results[0], "launch", None)
 
-        def start() -> Launch | None:
-            results.append(
-                run(session.shell, "roslaunch", shlex.join(words), say=say, console={"stdin": "", "sink": sink})
-            )
-            return getattr(results[0], "launch", None)
-
-        session.runs.launch(words, start)
+    session.runs.launch(words, start)
     return results[0]
 
 
-@contextmanager
-def _output(session: Session, is_quiet: bool) -> Iterator[OutputSink]:
-    """Yield the output for programs that start in this block."""
+def _output(session: Session, is_quiet: bool) -> OutputSink:
+    """Return the output for programs that start now."""
     if not is_quiet:
-        yield session.sink
-        return
-    sink = Quiet(session.sink)
-    try:
-        yield sink
-    finally:
-        sink.is_starting = False
+        return session.sink
+    now_ns = session.graph.scheduler.now_ns
+    end_ns = now_ns() + STARTUP_NS
+    return Quiet(session.sink, lambda: now_ns() < end_ns)
 
 
 def _take(words: list[str], word: str) -> bool:
@@ -162,15 +155,14 @@ def _start_script(session: Session, path: Path, title: str, given: Words, text: 
     stdin = session.typed(advice) if given.stdin is None else given.stdin
     source = path.read_text(encoding="utf-8", errors="replace") if text is None else text
     session.attach()
-    with _output(session, given.is_quiet) as sink:
-        console = partial(Console, graph.scheduler, stdin=stdin, sink=sink)
+    console = partial(Console, graph.scheduler, stdin=stdin, sink=_output(session, given.is_quiet))
 
-        def make() -> ScriptHandle:
-            if text is not None:
-                session.package.write("scripts", path.name, text, may_run=True)
-            return ScriptHandle(graph, ScriptSpec(str(path), given.args), console, seed=_seed(given.args))
+    def make() -> ScriptHandle:
+        if text is not None:
+            session.package.write("scripts", path.name, text, may_run=True)
+        return ScriptHandle(graph, ScriptSpec(str(path), given.args), console, seed=_seed(given.args))
 
-        session.runs.start(RunKey.of(str(path), given.args), title, make, may_print=_PRINTS.search(source) is not None)
+    session.runs.start(RunKey.of(str(path), given.args), title, make, may_print=_PRINTS.search(source) is not None)
 
 
 def _seed(args: Sequence[str]) -> str:

@@ -17,7 +17,11 @@ def test_the_time_counts_words_cells_and_exercises_up_to_the_exercises():
         new_markdown_cell("\n## Exercises\n"),
         stub,
     ]
-    assert reading.minutes(new_notebook(cells=cells)) == 15  # 2 + 2 + 10, rounded up to five
+    notebook = new_notebook(cells=cells)
+    assert reading.minutes(notebook) == 15  # 2 + 2 + 10, rounded up to five
+    cells[0].source = "Allow 90 minutes, exercises included. " + text
+    reading.state_minutes(notebook)
+    assert cells[0].source.startswith("Allow 15 minutes, exercises")
 
 
 def test_directions_come_first_and_once():

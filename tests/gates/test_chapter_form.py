@@ -29,6 +29,12 @@ def code_cells(chapter: str) -> list[Any]:
     return [cell for cell in cells[: ends[0] if ends else None] if cell.cell_type == "code"]
 
 
+def lacks_hint(notebook: Any) -> bool:
+    """Return whether an exercise has no hint."""
+    _, _, exercises = "\n".join(notebooks.prose(notebook)).partition("\n## Exercises\n")
+    return any("<summary>Hint" not in text for text in exercises.split("\n### Exercise ")[1:])
+
+
 def is_picture(cell: Any) -> bool:
     """Return whether a cell has drawn something."""
     kinds = {kind for output in cell.get("outputs", ()) for kind in output.get("data", {})}
@@ -56,26 +62,28 @@ def broken_rules(chapter: str) -> set[str]:
         "captions": any(
             is_picture(cell) and not CAPTION.match(below.source) for cell, below in pairwise(notebook.cells)
         ),
+        "hints": lacks_hint(notebook),
+        "time": f"Allow {reading.minutes(notebook)} minutes" not in notebook.cells[0].source,
         "mentions": any(f"](#{found['label']})" not in prose for found in CAPTION.finditer(prose)),
     }
     return {rule for rule, is_broken in found.items() if is_broken}
 
 
 TO_REWRITE: dict[str, set[str]] = {
-    "services": {"columns", "first motion", "lines", "mentions", "private API"},
-    "actionlib": {"columns", "first motion", "lines", "mentions", "private API"},
-    "parameter_server": {"cells", "columns", "mentions", "private API", "words"},
-    "names": {"cells", "columns", "lines", "mentions", "private API", "words"},
-    "bags": {"cells", "columns", "lines", "mentions", "private API"},
-    "frames": {"cells", "columns", "lines", "mentions", "private API"},
-    "turtlebot3": {"cells", "columns", "first motion", "lines", "mentions", "private API", "words"},
-    "teleoperation": {"cells", "columns", "lines", "mentions", "private API", "words"},
+    "services": {"first motion", "hints", "lines", "mentions", "private API", "time"},
+    "actionlib": {"first motion", "hints", "lines", "mentions", "private API", "time"},
+    "parameter_server": {"cells", "columns", "hints", "lines", "mentions", "private API", "time", "words"},
+    "names": {"cells", "hints", "lines", "mentions", "private API", "time", "words"},
+    "bags": {"cells", "columns", "hints", "lines", "mentions", "private API"},
+    "frames": {"cells", "columns", "hints", "lines", "mentions", "private API", "time"},
+    "turtlebot3": {"cells", "columns", "first motion", "hints", "lines", "mentions", "private API", "words"},
+    "teleoperation": {"cells", "columns", "hints", "lines", "mentions", "private API", "words"},
     "file_system": {"columns", "mentions"},
     "from_scratch": {"mentions"},
     "motion_node": {"columns"},
     "many_machines": {"mentions"},
-    "simulation_and_stage": {"cells", "columns", "lines", "mentions", "private API", "words"},
-    "gazebo": {"cells", "columns", "lines", "mentions", "private API", "words"},
+    "simulation_and_stage": {"cells", "columns", "hints", "lines", "mentions", "private API", "words"},
+    "gazebo": {"cells", "hints", "lines", "mentions", "private API", "words"},
     "rviz": {"columns", "private API"},
     "rqt": {"private API"},
     "navigation_stack": {"private API"},
@@ -83,16 +91,16 @@ TO_REWRITE: dict[str, set[str]] = {
     "costmaps": {"private API"},
     "global_planners": {"private API"},
     "local_planners": {"lines", "private API"},
-    "amcl": {"columns", "mentions", "private API"},
+    "amcl": {"mentions", "private API"},
     "gmapping": {"lines", "mentions"},
     "hector_mapping": {"lines", "mentions", "private API"},
     "move_base": {"private API"},
     "navigation_goal": {"private API"},
     "frontier_exploration": {"columns", "lines", "private API"},
     "explore_lite": {"private API"},
-    "many_turtlebots": {"columns", "lines", "private API"},
-    "the_wire": {"columns", "lines", "private API"},
-    "publish_subscribe": {"lines", "mentions", "private API"},
+    "many_turtlebots": {"columns", "hints", "lines", "private API"},
+    "the_wire": {"hints", "lines", "private API"},
+    "publish_subscribe": {"hints", "lines", "mentions", "private API", "time"},
 }
 
 

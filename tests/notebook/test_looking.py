@@ -80,13 +80,13 @@ def test_a_click_is_a_message_of_rviz_and_waits_for_a_subscriber(notebook: Noteb
 
 
 def test_quiet_hides_what_programs_log_while_they_start(notebook: Notebook) -> None:
-    launch = "%roslaunch rosmini_sim navigation.launch world:=room"
-    assert "[WARN]" in notebook.ok(launch)
-    assert notebook.ok(f"%roscore\n{launch} --quiet") == notebook.ok("%roscore")
-    assert notebook.ok("%rosrun turtlesim turtlesim_node --quiet") == ""
-    log = "rospy.logwarn('early')\nrospy.sleep(1)\nrospy.loginfo('i')\nrospy.logwarn('w')"
-    late = f"import rospy\nrospy.init_node('n')\n{log}"
-    assert notebook.ok(f"%%node late.py --quiet\n{late}") == ""
-    written = notebook.ok("import rosmini\nrosmini.wait(2)")
-    assert "[WARN]" in written and "w\n" in written and "[INFO]" not in written
+    log = "rospy.loginfo('i')\nrospy.logwarn('early')\nrospy.sleep(4)\nrospy.loginfo('i')\nrospy.logwarn('late')"
+    cell = f"%%node late.py {{}}\nimport rospy\nrospy.init_node('n')\n{log}"
+    notebook.ok('%%launch l.launch\n<launch><node pkg="notebook" type="late.py" name="n" output="screen"/></launch>')
+    assert "early" in notebook.ok(cell.format(""))
+    for start in (cell.format("--quiet"), "%roslaunch --quiet notebook l.launch", "%rosrun notebook late.py --quiet"):
+        notebook.ok("import rosmini\n%roscore")
+        assert notebook.ok(start) == ""
+        written = notebook.ok("rosmini.wait(5)")
+        assert "late" in written and "[INFO]" not in written
     assert "ZeroDivisionError" in notebook.ok("%%node broken.py --quiet\n1 / 0")

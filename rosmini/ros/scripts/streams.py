@@ -82,13 +82,15 @@ class ErrorsOnly(OutputSink):
 
 
 class Quiet(ErrorsOnly):
-    """A sink that passes only standard error, and while programs start no warnings."""
+    """A sink that passes only standard error, and no warnings while ``is_starting`` returns True."""
 
-    is_starting = True
+    def __init__(self, sink: OutputSink, is_starting: Callable[[], bool]) -> None:
+        super().__init__(sink)
+        self._is_starting = is_starting
 
     def emit(self, owner: ScriptOutput, text: str, *, complete: bool) -> None:
         """Pass on a line of standard error."""
-        if not (self.is_starting and text.startswith("[WARN]")):
+        if not (text.startswith("[WARN]") and self._is_starting()):
             super().emit(owner, text, complete=complete)
 
 
