@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     import nbformat
 
 CELL_TIMEOUT_S = 300
-MAX_CODE_LINES, MAX_SCRIPT_LINES = 20, 50
-"""Of a cell, and of one that is a script."""
 
 KERNELSPEC = {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}
 # Complete, since nbconvert takes the ending of a script from it, and with no version, which differs between machines.
@@ -139,10 +137,6 @@ def cell_problems(cell: nbformat.NotebookNode) -> Iterator[str]:
         yield f"uses {uncomparable[1]}, whose output nbval cannot compare"
     if cell.source.rstrip().endswith(";") and not cell.source.startswith("%%"):
         yield "hides its value with a semicolon, which nbval does not see: assign it"
-    lines = [line for line in cell.source.splitlines() if line.strip() and not line.strip().startswith("#")]
-    most = MAX_SCRIPT_LINES if cell.source.startswith("%%node ") else MAX_CODE_LINES
-    if len(lines) > most:
-        yield f"has {len(lines)} lines of code, over {most}: split it, or move a helper into rosmini"
     for output in cell.outputs:
         yield from output_problems(output)
 

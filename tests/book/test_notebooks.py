@@ -58,14 +58,6 @@ def test_a_clean_notebook_has_no_problems():
             code("x", 1, stream("<script>const book = false, packed = {}</script>")),
             "cell 1 holds a moving picture in its live form: `execute` stores the small one that the book shows: 'x'",
         ),
-        (
-            code("\n".join(["%%node x.py"] + ["x = 1"] * 50)),
-            "cell 1 has 51 lines of code, over 50: split it, or move a helper into rosmini: '%%node x.py'",
-        ),
-        (
-            code("\n".join("x = 1" for _ in range(21))),
-            "cell 1 has 21 lines of code, over 20: split it, or move a helper into rosmini: 'x = 1'",
-        ),
     ],
 )
 def test_what_is_refused(cell, problem):
