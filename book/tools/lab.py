@@ -62,6 +62,7 @@ def lab_arguments(args: argparse.Namespace, notebooks: str) -> list[str]:
         "--ServerApp.ip=127.0.0.1",
         f"--ServerApp.port={args.port}",
         "--ServerApp.kernel_spec_manager_class=book.tools.kernels.Kernels",
+        "--FileContentsManager.pre_save_hook=book.tools.notebooks.before_save",
     ]
     # No news, no confirmation at Ctrl-C.
     arguments += ["--LabApp.news_url=None", "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate"]

@@ -192,6 +192,11 @@ def clean(notebook: nbformat.NotebookNode) -> None:
         if cell.cell_type == "markdown":
             cell.source = next(texts)
     reading.state_minutes(notebook)
+    clean_metadata(notebook)
+
+
+def clean_metadata(notebook: nbformat.NotebookNode) -> None:
+    """Give `notebook` the metadata of all notebooks, in place, without those of a run."""
     notebook.metadata = type(notebook.metadata)(kernelspec=KERNELSPEC, language_info=LANGUAGE)
     for cell in notebook.cells:
         for key in set(cell.metadata) - CELL_METADATA:
@@ -199,6 +204,19 @@ def clean(notebook: nbformat.NotebookNode) -> None:
         for output in cell.get("outputs", []):
             if output.get("metadata", {}).get("needs_background"):
                 del output.metadata["needs_background"]
+
+
+def before_save(model: dict[str, Any], **_: object) -> None:
+    """Clean the metadata of a notebook that JupyterLab saves, so that git shows changes of its cells only.
+
+    A hook of Jupyter's contents manager: `model` is what the page has sent, and is changed in place.
+    """
+    import nbformat
+
+    if model["type"] == "notebook":
+        notebook = nbformat.from_dict(model["content"])  # type: ignore[no-untyped-call]
+        clean_metadata(notebook)
+        model["content"] = notebook
 
 
 def execute(notebook: nbformat.NotebookNode, folder: Path) -> None:

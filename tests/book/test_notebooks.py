@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
@@ -98,6 +100,17 @@ def test_the_metadata_of_the_notebook(info):
     ]
     notebooks.clean(nb)
     assert list(notebooks.problems(nb)) == []
+
+
+def test_saving_in_jupyterlab_changes_no_metadata():
+    stored = notebook(code("x"))
+    notebooks.clean(stored)
+    model = {"type": "notebook", "content": json.loads(json.dumps(stored))}
+    model["content"]["metadata"]["language_info"]["version"] = "3.13.0"
+    model["content"]["cells"][-1]["metadata"]["execution"] = {"iopub.status.busy": "now"}
+    notebooks.before_save(model=model, path="a.ipynb", contents_manager=None)
+    assert model["content"] == stored
+    notebooks.before_save(model={"type": "file", "content": "text"})
 
 
 def test_execute_stores_outputs_that_pass_and_are_the_same_bytes(tmp_path):
