@@ -72,7 +72,6 @@ def broken_rules(chapter: str) -> set[str]:
 TO_REWRITE: dict[str, set[str]] = {
     "services": {"first motion", "hints", "lines", "mentions", "private API", "time"},
     "actionlib": {"first motion", "hints", "lines", "mentions", "private API", "time"},
-    "parameter_server": {"cells", "columns", "hints", "lines", "mentions", "private API", "time", "words"},
     "names": {"cells", "hints", "lines", "mentions", "private API", "time", "words"},
     "bags": {"cells", "columns", "hints", "lines", "mentions", "private API"},
     "frames": {"cells", "columns", "hints", "lines", "mentions", "private API", "time"},

@@ -1,143 +1,150 @@
-"""Checks of the exercises in the chapter The Parameter Server."""
+"""Checks of the exercises in the chapter The Parameter Server: each runs a script with a separate robot or graph."""
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
-from rosmini.book.checks import exercise, expect, expect_heard, expect_node, expect_type
-from rosmini.core.graph import Graph
-from rosmini.msgs.std_msgs.msg import Float32
+from rosmini.book.checks import Script, exercise, expect
+from rosmini.book.trials import Trial
+from rosmini.msgs.geometry_msgs.msg import Twist
 
-# ---- names: resolving names ----
+# ---- max_speed: a limit from a private parameter ----
 
-NAMES = ["/robot2/wheel/radius", "/robot2/driver/gain", "/use_sim_time"]
-
-
-@exercise("names", praise="In another namespace, the same three lines read other parameters.")
-def names(answer: Any) -> None:
-    """The full names of wheel/radius, ~gain and /use_sim_time for /robot2/driver."""
-    expect_type(answer, list, "names is", "a list", '["/...", "/...", "/..."]')
-    expect(len(answer) == 3, f"The list has {len(answer)} entries, not three.", "write one for each name")
-    said = ["wheel/radius", "~gain", "/use_sim_time"]
-    hints = [
-        "the namespace of /robot2/driver is /robot2; a relative name starts there",
-        "a private name starts with the node's full name",
-        "a name that begins with / stays as it is",
-    ]
-    for short, given, right, hint in zip(said, answer, NAMES, hints, strict=True):
-        expect(given == right, f"{short} does not resolve to {given!r} there.", hint)
+WISHES = ((0.05, 0.0), (0.2, 0.5), (0.4, -0.5), (-0.3, 0.0), (0.0, 0.0))
 
 
-# ---- gain_of: the nearest gain ----
+@exercise("max_speed", praise="The same script serves a fast robot and a slow one.", gaps=2)
+def max_speed(answer: Script) -> Any:
+    """The node limits the speed to ~max_speed, which is 0.22 m/s by default."""
+    view = None
+    for arguments, limit in (((), 0.22), (("_max_speed:=0.1",), 0.1), (("_max_speed:=1", "__name:=fast"), 1.0)):
+        got: list[tuple[float, float]] = []
+        with Trial("arena", "_x:=-1.0") as trial:
+            trial.graph.node("stranger").set_param("/max_speed", 0.01)
+            trial.graph.node("listener").subscriber("cmd_vel", Twist, lambda m, got=got: got.append(_pair(m)))
+            wish = trial.graph.node("wisher").publisher("wish", Twist, queue_size=10)
+            trial.start(answer, *arguments)
+            trial.run(0.5)
+            expect(wish.num_connections(), "No node subscribes to /wish.", "keep the stub's last lines")
+            for speed, rate in WISHES:
+                got.clear()
+                for _ in range(10):
+                    command = Twist()
+                    command.linear.x, command.angular.z = speed, rate
+                    wish.publish(command)
+                    trial.run(0.1)
+                trial.expect_no_errors()
+                expect(len(got) == 10, f"For 10 wishes it sent {len(got)} commands.", "publish one for each wish")
+                wanted = (max(-limit, min(limit, speed)), rate)
+                started = " ".join(("limiter.py", *arguments))
+                expect(
+                    all(math.isclose(a, b) for a, b in zip(got[-1], wanted, strict=True)),
+                    f"Started as `{started}`, it turned the wish {speed:g} m/s, {rate:g} rad/s into "
+                    f"{got[-1][0]:g} m/s, {got[-1][1]:g} rad/s.",
+                    f'rospy.get_param("~max_speed", 0.22) is {limit:g} there',
+                )
+            view = view or trial.view()
+    return view
 
 
-@exercise("gain_of", praise="One value serves all nodes, a nearer one makes an exception; a default remains.")
-def gain_of(answer: Any) -> None:
-    """The value of the nearest gain above the node, as a float; 1.0 by default."""
-    with Graph() as graph:
-        node = graph.node("driver", namespace="/robot2/base")
-        steps = [
-            (None, None, 1.0, "no gain is set"),
-            ("/gain", 2, 2.0, "/gain is 2"),
-            ("/robot2/gain", 3.5, 3.5, "/robot2/gain is 3.5 and /gain is 2"),
-            ("/robot2/base/driver/gain", 0, 0.0, "~gain is 0, and other gains are set above it"),
-        ]
-        for name, value, right, case in steps:
-            if name is not None:
-                node.set_param(name, value)
-            found = answer(node)
+def _pair(command: Any) -> tuple[float, float]:
+    return command.linear.x, command.angular.z
+
+
+# ---- paused: a parameter that changes ----
+
+
+@exercise("paused", praise="It stopped and went on when somebody set the parameter, and needed no restart.")
+def paused(answer: Script) -> Any:
+    """The node drives, and stops while /paused is true."""
+    got: list[float] = []
+    with Trial("arena", "_x:=-1.5") as trial:
+        boss = trial.graph.node("boss")
+        boss.subscriber("cmd_vel", Twist, lambda m: got.append(m.linear.x))
+        trial.start(answer)
+        trial.run(0.5)
+        for value, speed in ((None, 0.1), (True, 0.0), (False, 0.1), (True, 0.0)):
+            if value is not None:
+                boss.set_param("/paused", value)
+            trial.run(0.3)
+            got.clear()
+            trial.run(4.0)
+            trial.expect_no_errors()
+            said = "is not set" if value is None else f"is {value}"
+            expect(len(got) >= 38, f"While /paused {said}, it sends fewer than ten commands a second.")
             expect(
-                isinstance(found, (int, float)) and found == right,
-                f"For the node {node.name}, when {case}, it returned {found!r}, not {right}.",
+                all(math.isclose(sent, speed, abs_tol=1e-9) for sent in got),
+                f"While /paused {said}, it sends {got[-1]:g} m/s, not {speed:g} m/s.",
+                'call rospy.get_param("/paused", False) inside the loop',
+            )
+        return trial.view()
+
+
+# ---- quiet: the nearest parameter ----
+
+HOUSES: tuple[tuple[dict[str, bool], float], ...] = (
+    ({}, 0.2),
+    ({"/quiet": True}, 0.05),
+    ({"/quiet": True, "/robot1/quiet": False}, 0.2),
+    ({"/robot1/quiet": False, "/robot1/driver/quiet": True}, 0.05),
+    ({"/robot2/quiet": True}, 0.2),
+)
+
+
+@exercise("quiet", praise="One value serves the whole house, and a nearer one makes an exception.")
+def quiet(answer: Script) -> Any:
+    """The node's speed depends on the nearest parameter `quiet`."""
+    view = None
+    for settings, speed in HOUSES:
+        got: list[float] = []
+        with Trial("arena", "_x:=-1.5") as trial:
+            boss = trial.graph.node("boss")
+            boss.subscriber("cmd_vel", Twist, lambda m, got=got: got.append(m.linear.x))
+            for name, value in settings.items():
+                boss.set_param(name, value)
+            trial.start(answer, "__ns:=/robot1", "cmd_vel:=/cmd_vel")
+            trial.run(3.0)
+            trial.expect_no_errors()
+            said = " and ".join(f"{name} is {value}" for name, value in settings.items()) or "quiet is not set"
+            expect(got, f"If {said}, it sends no command.", "keep the loop at the end of the stub")
+            expect(
+                math.isclose(got[-1], speed),
+                f"If {said}, the node /robot1/driver sends {got[-1]:g} m/s, not {speed:g} m/s.",
                 "search_param returns the full name of the nearest one, or None; get_param returns its value",
             )
-            expect(
-                type(found) is float,
-                f"When {case}, it returned the {type(found).__name__} {found!r}, not a float.",
-                "use get_param(name, expect=float), or float(...)",
-            )
+            view = trial.view()
+    return view
 
 
-# ---- merge: merging ----
+# ---- measured: merge a namespace into another ----
+
+ROBOT = {"name": "burger", "wheel": {"radius": 0.033, "separation": 0.16}, "masts": [1, 2, 3]}
+MEASURED = {"wheel": {"radius": 0.0328}, "masts": [4], "laser": {"pose": {"z": 0.17}}}
+MERGED = {
+    "name": "burger",
+    "wheel": {"radius": 0.0328, "separation": 0.16},
+    "masts": [4],
+    "laser": {"pose": {"z": 0.17}},
+}
 
 
-@exercise("merge", praise="`rosparam load` and `rosparam set` treat a dictionary in the same way.")
-def merge(answer: Any) -> None:
-    """Merge a dictionary into a namespace and keep its other parameters."""
-    with Graph() as graph:
-        node = graph.node("node")
-        node.set_param("/arm", {"name": "left", "joint": {"min": -1.0, "max": 1.0}, "links": [1, 2, 3]})
-        answer(node, "/arm", {"joint": {"max": 2.0}, "links": [4], "tool": {"grip": {"force": 5}}})
-        found = node.get_param("/arm", {})
-        stray = [name for name in node.param_names() if not name.startswith(("/arm", "/ros", "/run_id"))]
-    expect(not stray, f"It set {', '.join(stray)}, outside /arm.", 'the full name is f"{name}/{key}"')
-    expect(
-        found.get("name") == "left",
-        "/arm/name is gone.",
-        "setting the whole namespace deletes the rest; set each parameter",
-    )
-    joint = found.get("joint", {})
-    expect(joint.get("min") == -1.0, "/arm/joint/min is gone.", "merge a nested dictionary in the same way")
-    expect(joint.get("max") == 2.0, f"/arm/joint/max is {joint.get('max')!r}, not 2.0.", "use set_param")
-    expect(
-        found.get("links") == [4],
-        f"/arm/links is {found.get('links')!r}, not [4].",
-        "a list is one value; it replaces the old one",
-    )
-    expect(
-        found.get("tool") == {"grip": {"force": 5}},
-        f"/arm/tool is {found.get('tool')!r}, not {{'grip': {{'force': 5}}}}.",
-        "to make a namespace, set the parameters in it",
-    )
-
-
-# ---- limiter: a limit that may change ----
-
-
-class _Counted:
-    """A Master that counts the requests for parameters."""
-
-    def __init__(self, master: Any) -> None:
-        self._master = master
-        self.count = 0
-
-    def __getattr__(self, name: str) -> Any:
-        self.count += name in ("getParam", "hasParam", "searchParam", "getParamNames")
-        return getattr(self._master, name)
-
-
-@exercise("limiter", praise="The node asks once and is notified of changes, so messages cost nothing.")
-def limiter(answer: Any) -> None:
-    """A node that limits speeds to a parameter that changes while it runs."""
-    got: list[float] = []
-    with Graph() as graph:
-        boss = graph.node("boss")
-        boss.set_param("/limit", 1.0)
-        answer(graph)
-        expect_node(graph, "/limiter")
-        wanted = boss.publisher("wanted", Float32)
-        boss.subscriber("allowed", Float32, lambda message: got.append(message.data))
-        graph.run(0.1)
-        expect_heard(wanted)
-        counted = _Counted(graph.master)
-        graph.master = counted  # type: ignore[assignment]
-        for limit in (None, 0.5, 2.0):
-            if limit is not None:
-                boss.set_param("/limit", limit)
-                graph.run(0.1)
-            counted.count = 0
-            for speed in (0.25, 4.0, -4.0):
-                wanted.publish(speed)
-                graph.run(0.1)
-            expect(
-                counted.count == 0,
-                "The node asks the Master for the parameter at every message.",
-                "on_param notifies the node when the parameter changes",
-            )
-    right = [0.25, 1.0, -4.0, 0.25, 0.5, -4.0, 0.25, 2.0, -4.0]
-    expect(
-        got == right,
-        f"For 0.25, 4 and -4, with the limits 1.0, then 0.5, then 2.0, it published {got or 'nothing'}, not {right}.",
-        "use min(message.data, limit) with the current limit: on_param returns the first one and passes each "
-        "new one to your callback",
-    )
+@exercise("measured", praise="`rosparam load` merges a file in the same way.", gaps=2)
+def measured(answer: Script) -> Any:
+    """The script merges /measured into /robot, and deletes it."""
+    with Trial("empty", is_shown=False) as trial:
+        boss = trial.graph.node("boss")
+        boss.set_param("/robot", ROBOT)
+        boss.set_param("/measured", MEASURED)
+        trial.start(answer)
+        trial.run(2.0)
+        trial.expect_no_errors()
+        found = boss.get_param("/robot", {})
+        gone = [name for name in ("name", "wheel/separation") if not boss.has_param(f"/robot/{name}")]
+        expect(
+            not gone,
+            f"/robot/{' and /robot/'.join(gone)} is gone.",
+            "set_param with a dictionary replaces the namespace: set each value by its full name",
+        )
+        expect(found == MERGED, f"/robot is {found}, not {MERGED}.", "a list is one value; a dictionary is not")
+        expect(not boss.has_param("/measured"), "/measured is still there.", "use rospy.delete_param")

@@ -1,139 +1,103 @@
-"""Wrong answers to the exercises of the chapter The Parameter Server."""
+"""Wrong answers to the exercises of the chapter The Parameter Server: right ones with a fault put in."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from .nodes_and_master import wrong
 
-from rosmini.book.exercises.parameter_server import NAMES
-from rosmini.core.graph import Graph
-from rosmini.msgs import message_class
+MAX_SPEED = """
+import rospy
+from geometry_msgs.msg import Twist
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
+def on_wish(wish):
+    wish.linear.x = max(-limit, min(limit, wish.linear.x))
+    cmd_vel.publish(wish)
 
-# ---- gain_of: the nearest gain ----
+rospy.init_node("limiter")
+limit = rospy.get_param("~max_speed", 0.22)
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+rospy.Subscriber("wish", Twist, on_wish)
+rospy.spin()
+"""
 
+PAUSED = """
+import rospy
+from geometry_msgs.msg import Twist
 
-def _nearest_with_raw_value(node: Any) -> Any:
-    name = node.search_param("gain")
-    return 1.0 if name is None else node.get_param(name)
+rospy.init_node("driver")
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+rate = rospy.Rate(10)
+while not rospy.is_shutdown():
+    command = Twist()
+    if not rospy.get_param("/paused", False):
+        command.linear.x = 0.1
+    cmd_vel.publish(command)
+    rate.sleep()
+"""
 
+QUIET = """
+import rospy
+from geometry_msgs.msg import Twist
 
-def _nearest_or_one_hundred(node: Any) -> Any:
-    name = node.search_param("gain")
-    return 100.0 if name is None else float(node.get_param(name))
+rospy.init_node("driver")
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+command = Twist()
+name = rospy.search_param("quiet")
+is_quiet = name is not None and rospy.get_param(name)
+command.linear.x = 0.05 if is_quiet else 0.2
+rate = rospy.Rate(10)
+while not rospy.is_shutdown():
+    cmd_vel.publish(command)
+    rate.sleep()
+"""
 
+MEASURED = """
+import rospy
 
-# ---- merge: merging ----
-
-
-def _replace(node: Any, name: str, values: dict[str, Any]) -> None:
-    node.set_param(name, values)
-
-
-def _merge_one_level(node: Any, name: str, values: dict[str, Any]) -> None:
-    for key, value in values.items():
-        node.set_param(f"{name}/{key}", value)
-
-
-def _merge_at_the_root(node: Any, name: str, values: dict[str, Any]) -> None:
+def merge(name, values):
     for key, value in values.items():
         if isinstance(value, dict):
-            _merge_at_the_root(node, f"{name}/{key}", value)
+            merge(f"{name}/{key}", value)
         else:
-            node.set_param(f"/{key}", value)
+            rospy.set_param(f"{name}/{key}", value)
 
-
-def _merge_lists(node: Any, name: str, values: dict[str, Any]) -> None:
-    for key, value in values.items():
-        full = f"{name}/{key}"
-        if isinstance(value, dict):
-            _merge_lists(node, full, value)
-        elif isinstance(value, list):
-            node.set_param(full, [*node.get_param(full, []), *value])
-        else:
-            node.set_param(full, value)
-
-
-# ---- limiter: a limit that may change ----
-
-
-def _limiter(make: Callable[[Any], Callable[[], float]], name: str = "limiter") -> Callable[[], Any]:
-    """A node that limits with what ``make(node)()`` returns for each message."""
-
-    def start(graph: Graph) -> None:
-        node = graph.node(name)
-        float32 = message_class("std_msgs/Float32")
-        allowed = node.publisher("allowed", float32, queue_size=10)
-        limit = make(node)
-        node.subscriber("wanted", float32, lambda message: allowed.publish(min(message.data, limit())))
-
-    return lambda: start
-
-
-def _read_once(node: Any) -> Callable[[], float]:
-    limit = node.get_param("/limit")
-    return lambda: limit
-
-
-def _ask_each_time(node: Any) -> Callable[[], float]:
-    return lambda: node.get_param("/limit")
-
-
-def _only_changes(node: Any) -> Callable[[], float]:
-    limits = [1e9]
-    node.on_param("/limit", limits.append)
-    return lambda: limits[-1]
-
-
-def _first_change_only(node: Any) -> Callable[[], float]:
-    limits: list[float] = []
-    limits.append(node.on_param("/limit", limits.append))
-    return lambda: limits[min(1, len(limits) - 1)]
-
-
-def _listening(node: Any) -> Callable[[], float]:
-    limits: list[float] = []
-    limits.append(node.on_param("/limit", limits.append))
-    return lambda: limits[-1]
+rospy.init_node("mechanic")
+merge("/robot", rospy.get_param("/measured"))
+rospy.delete_param("/measured")
+"""
 
 
 MISTAKES = {
-    "names": [
-        lambda: ["/wheel/radius", *NAMES[1:]],
-        lambda: ["/robot2/driver/wheel/radius", *NAMES[1:]],
-        lambda: [NAMES[0], "/robot2/gain", NAMES[2]],
-        lambda: [NAMES[0], "/robot2/driver/~gain", NAMES[2]],
-        lambda: [*NAMES[:2], "/robot2/use_sim_time"],
-        lambda: NAMES[::-1],
-        lambda: NAMES[:2],
-        lambda: tuple(NAMES),
-        lambda: ", ".join(NAMES),
-        lambda: [name[1:] for name in NAMES],
+    "max_speed": [
+        wrong("limiter.py", MAX_SPEED, '"~max_speed"', '"max_speed"'),
+        wrong("limiter.py", MAX_SPEED, '"~max_speed"', '"/limiter/max_speed"'),
+        wrong("limiter.py", MAX_SPEED, ", 0.22)", ")"),
+        wrong("limiter.py", MAX_SPEED, "max(-limit, min(limit, wish.linear.x))", "min(limit, wish.linear.x)"),
+        wrong("limiter.py", MAX_SPEED, "wish.linear.x = max", "wish.angular.z = max"),
+        wrong("limiter.py", MAX_SPEED, "    cmd_vel.publish(wish)\n"),
     ],
-    "gain_of": [
-        lambda: lambda node: float(node.get_param("gain", 1.0)),
-        lambda: lambda node: float(node.get_param("~gain", 1.0)),
-        lambda: lambda node: float(node.get_param("/gain", 1.0)),
-        lambda: _nearest_with_raw_value,
-        lambda: _nearest_or_one_hundred,
-        lambda: lambda node: node.search_param("gain"),
-        lambda: lambda _: 1.0,
+    "paused": [
+        wrong("pause.py", PAUSED, ", False)", ")"),
+        wrong("pause.py", PAUSED, "/paused", "~paused"),
+        wrong("pause.py", PAUSED, "if not rospy", "if rospy"),
+        wrong("pause.py", PAUSED, "    cmd_vel.publish(command)", "        cmd_vel.publish(command)"),
+        wrong(
+            "pause.py",
+            PAUSED.replace("rate = ", 'is_paused = rospy.get_param("/paused", False)\nrate = '),
+            'rospy.get_param("/paused", False):',
+            "is_paused:",
+        ),
     ],
-    "merge": [
-        lambda: _replace,
-        lambda: _merge_one_level,
-        lambda: _merge_at_the_root,
-        lambda: _merge_lists,
-        lambda: lambda *arguments: arguments[2],
+    "quiet": [
+        wrong("quiet.py", QUIET, 'rospy.search_param("quiet")', '"/quiet"'),
+        wrong("quiet.py", QUIET, "name is not None and rospy.get_param(name)", "name is not None"),
+        wrong("quiet.py", QUIET, 'rospy.search_param("quiet")', 'rospy.resolve_name("quiet")'),
+        wrong("quiet.py", QUIET, "name is not None and ", ""),
+        wrong("quiet.py", QUIET, "0.05 if is_quiet else 0.2", "0.2 if is_quiet else 0.05"),
     ],
-    "limiter": [
-        _limiter(_read_once),
-        _limiter(_ask_each_time),
-        _limiter(_only_changes),
-        _limiter(_first_change_only),
-        _limiter(_listening, name="limit"),
-        _limiter(lambda _: lambda: 1.0),
-        lambda: lambda graph: graph.node("limiter"),
+    "measured": [
+        wrong("measured.py", MEASURED, 'rospy.delete_param("/measured")\n'),
+        wrong("measured.py", MEASURED, 'merge("/robot"', 'rospy.set_param("/robot"'),
+        wrong("measured.py", MEASURED, "isinstance(value, dict)", "False"),
+        wrong("measured.py", MEASURED, 'merge(f"{name}/{key}", value)', "merge(name, value)"),
     ],
 }
