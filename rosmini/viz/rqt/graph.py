@@ -12,7 +12,7 @@ from rosmini.viz.rqt.condensing import condensed
 from rosmini.viz.rqt.drawing import draw
 from rosmini.viz.rqt.graph_state import CALLER_ID, GraphState, graph_state
 from rosmini.viz.rqt.highlight import highlighted
-from rosmini.viz.rqt.selection import Group, Hide, Mode, matches, select
+from rosmini.viz.rqt.selection import MEANING, Group, Hide, Mode, matches, select
 from rosmini.viz.rqt.wording import alt_text, text_form
 from rosmini.viz.view import Picture, ViewError
 
@@ -175,8 +175,9 @@ class NodeGraph(Panel):
             help="topics as labels (nodes), or as boxes (active, all)",
         )
         parser.add_option(
-            "--hide", metavar="LIST", help="debug, dead_sinks, leaf_topics, params, tf, unreachable, none"
-        )
+            "--hide", metavar="LIST",
+            help=f"what to leave out: {'; '.join(f'{name}: {what}' for name, what in MEANING.items())}; or none",
+        )  # fmt: skip
         parser.add_option("--nodes", default="/", metavar="FILTER", help="names or regular expressions, - excludes")
         parser.add_option("--topics", default="/", metavar="FILTER", help="likewise")
         parser.add_option("--group", metavar="LIST", help="what is one box: actions, images, tf, none")

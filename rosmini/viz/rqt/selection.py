@@ -17,6 +17,15 @@ from rosmini.viz.view import ViewError
 
 Mode = Literal["nodes_only", "nodes_topics_all", "nodes_topics_active"]
 Hide = Literal["debug", "dead_sinks", "leaf_topics", "params", "tf", "unreachable"]
+MEANING: dict[Hide, str] = {
+    "debug": "tools such as rqt itself, and /rosout and /clock",
+    "dead_sinks": "topics without subscribers",
+    "leaf_topics": "topics with one connection only",
+    "params": "topics of dynamic_reconfigure",
+    "tf": "the topics of transforms",
+    "unreachable": "nodes that do not answer",
+}
+"""What each switch of the row "Hide" leaves out."""
 Group = Literal["actions", "images", "tf"]
 
 DEBUG_NAMES = (
