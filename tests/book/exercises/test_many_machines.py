@@ -9,13 +9,11 @@ from rosmini.book.checks import Status, find
 from .conftest import printed
 
 
-def test_one_teleop_drives_both_turtles_and_a_namespace_parts_them(cells):
-    first, second = printed(cells, "laptop, robot =").strip().splitlines()[-2:]
-    assert first == second
-    assert "(5.54, 5.54" not in first
-    one, two = printed(cells, 'print("one:"').strip().splitlines()[-2:]
-    assert "(5.54, 5.54" in one
-    assert "(5.54, 5.54" not in two
+def test_one_teleop_drives_both_turtles_and_a_namespace_parts_them(cells, figures):
+    first, second = [line for line in figures[2].splitlines() if line.startswith("turtle1")]
+    assert first == second and "8.00 m" in first
+    *_, one, _, two, _ = printed(cells, "/one/turtle1/pose/x").splitlines()
+    assert one.startswith("5.54") and two.startswith("9.54")
 
 
 def test_the_mistakes_have_their_messages(cells):
