@@ -13,6 +13,7 @@ import pytest
 import rosmini.book.exercises
 from rosmini.book import checks
 from rosmini.book.checks import Exercise, NoAnswer, Script, Status, UnknownExercise, check, exercise, expect, is_stub
+from rosmini.msgs.importer import forget
 
 
 @exercise("wheels", praise="Six wheels it is.")
@@ -222,15 +223,35 @@ def all_exercises():
         yield from (value for value in vars(found).values() if isinstance(value, checks.Exercise))
 
 
+def mistakes_module(found):
+    chapter = found.examine.__module__.rpartition(".")[2]
+    return importlib.import_module(f".exercises.mistakes.{chapter}", __package__)
+
+
 def mistakes_of(found):
     """Functions that each return a wrong answer, so that no check can pass always."""
-    chapter = found.examine.__module__.rpartition(".")[2]
-    return importlib.import_module(f".exercises.mistakes.{chapter}", __package__).MISTAKES[found.name]
+    return mistakes_module(found).MISTAKES[found.name]
+
+
+@pytest.fixture
+def package(found, tmp_path, monkeypatch):
+    """The notebook's package, with the files that cells of the chapter write, if wrong answers need any."""
+    files = getattr(mistakes_module(found), "PACKAGE", {})
+    if not files:
+        return
+    folder = tmp_path / checks.NOTEBOOK
+    manifest = f"<package><name>{checks.NOTEBOOK}</name><version>0.0.0</version></package>"
+    for name, text in (files | {"package.xml": manifest}).items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text, encoding="utf-8")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
+    forget(checks.NOTEBOOK)
 
 
 each_exercise = pytest.mark.parametrize("found", list(all_exercises()), ids=lambda found: found.name)
 
 
+@pytest.mark.usefixtures("package")
 @each_exercise
 def test_every_check_refuses_every_mistake(found):
     assert mistakes_of(found)
@@ -240,6 +261,7 @@ def test_every_check_refuses_every_mistake(found):
 
 
 @pytest.mark.nightly
+@pytest.mark.usefixtures("package")
 @each_exercise
 def test_a_verdict_is_the_same_in_each_run(found):
     for mistake in mistakes_of(found):

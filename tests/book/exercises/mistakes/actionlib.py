@@ -1,148 +1,96 @@
-"""Wrong answers to the exercises of the chapter Actions."""
+"""Wrong answers to the exercises of the chapter Actions: right ones with a fault put in."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from rosmini.book.exercises.actionlib import _ends
-from rosmini.core.actionlib import SERVER_TRANSITIONS, ActionServer, SimpleActionServer, Status
-from rosmini.core.graph import Graph
-from rosmini.msgs.actionlib.msg import TestAction, TestFeedback, TestResult, TwoIntsAction, TwoIntsResult
+from rosmini.book.checks import Script
+from rosmini.book.exercises.actionlib import SERVER
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+PACKAGE = {"action/Drive.action": "float64 distance\n---\nfloat64 travelled\n---\nfloat64 travelled\n"}
+"""Files that cells of the chapter write into the notebook's package."""
 
-def _counter(
-    *, period: float = 1.0, first: int = 1, heeds: bool = True, says: bool = True, ends: str = "set_preempted"
-) -> Callable[[], Any]:
-    def start(graph: Graph) -> None:
-        node = graph.node("counter")
+BUTTON = """
+import rospy
+from actionlib_msgs.msg import GoalID
+from std_msgs.msg import Empty
 
-        def count(goal: Any) -> None:
-            number = first - 1
-            while number < goal.goal:
-                node.sleep(period)
-                if heeds and server.is_preempt_requested():
-                    getattr(server, ends)(TestResult(number))
-                    return
-                number += 1
-                if says:
-                    server.publish_feedback(TestFeedback(number))
-            server.set_succeeded(TestResult(number))
+def on_stop(message):
+    cancel.publish(GoalID())
 
-        server = SimpleActionServer(node, "count", TestAction, count)
+rospy.init_node("stop_button")
+cancel = rospy.Publisher("drive/cancel", GoalID, queue_size=1)
+rospy.Subscriber("stop", Empty, on_stop)
+rospy.spin()
+"""
 
-    return lambda: start
+RETURN = """
+import actionlib
+import rospy
+from notebook.msg import DriveAction, DriveGoal
 
-
-def _one_step(status: Status) -> set[Status]:
-    return {table[status] for table in SERVER_TRANSITIONS.values() if status in table and table[status].is_terminal}
-
-
-def _jumper(graph: Graph) -> None:
-    node = graph.node("counter")
-
-    def count(goal: Any) -> None:
-        node.sleep(float(goal.goal))
-        server.set_succeeded(TestResult(goal.goal))
-
-    server = SimpleActionServer(node, "count", TestAction, count)
-
-
-def _named_otherwise(graph: Graph) -> None:
-    SimpleActionServer(graph.node("count"), "counter", TestAction, lambda _: None)
-
-
-# ---- ask_with_patience: patience ----
-
-
-def _never_cancels(client: Any, goal: Any, seconds: float) -> tuple[str, Any]:
-    client.send_goal(goal)
-    client.wait_for_result(seconds)
-    return client.get_state().name, client.get_result()
-
-
-def _does_not_wait(client: Any, goal: Any, seconds: float) -> tuple[str, Any]:
-    client.send_goal(goal)
-    if not client.wait_for_result(seconds):
-        client.cancel_goal()
-    return client.get_state().name, client.get_result()
-
-
-def _always_cancels(client: Any, goal: Any, seconds: float) -> tuple[str, Any]:
-    client.send_goal(goal)
-    client.node.sleep(seconds)
+rospy.init_node("client")
+distance = rospy.get_param("~distance")
+patience = rospy.get_param("~patience")
+client = actionlib.SimpleActionClient("drive", DriveAction)
+client.wait_for_server()
+client.send_goal(DriveGoal(distance))
+if not client.wait_for_result(rospy.Duration(patience)):
     client.cancel_goal()
-    client.wait_for_result()
-    return client.get_state().name, client.get_result()
+    client.wait_for_result(rospy.Duration(2))
+result = client.get_result()
+if result is None:
+    rospy.logerr("the server does not answer")
+else:
+    client.send_goal_and_wait(DriveGoal(-result.travelled), rospy.Duration(60))
+"""
 
 
-def _without_limit(client: Any, goal: Any, _: float) -> tuple[str, Any]:
-    return client.send_goal_and_wait(goal).name, client.get_result()
+def _changed(name: str, source: str, before: str, after: str) -> Callable[[], Script]:
+    assert before in source
+    return lambda: Script(f"{name}.py", source.replace(before, after))
 
 
-# ---- start_adder: choose your goals ----
+def _button(before: str, after: str) -> Callable[[], Script]:
+    return _changed("stop_button", BUTTON, before, after)
 
 
-def _adder(
-    *, limit: int = 0, both: bool = True, accept: bool = True, reject: str = "set_rejected"
-) -> Callable[[], Any]:
-    def start(graph: Graph) -> None:
-        def on_goal(handle: Any) -> None:
-            goal = handle.get_goal()
-            if goal.a < limit or (both and goal.b < limit):
-                if reject != "set_rejected":
-                    handle.set_accepted()
-                getattr(handle, reject)()
-                return
-            if accept:
-                handle.set_accepted()
-            handle.set_succeeded(TwoIntsResult(goal.a + goal.b))
-
-        ActionServer(graph.node("adder"), "add", TwoIntsAction, on_goal)
-
-    return lambda: start
+def _server(before: str, after: str) -> Callable[[], Script]:
+    return _changed("reverse_server", SERVER, before, after)
 
 
-def _accepts_only(graph: Graph) -> None:
-    ActionServer(graph.node("adder"), "add", TwoIntsAction, lambda handle: handle.set_accepted())
+def _client(before: str, after: str) -> Callable[[], Script]:
+    return _changed("return_client", RETURN, before, after)
 
 
 MISTAKES = {
-    "possible_ends": [
-        lambda: _one_step,
-        lambda: lambda _: {status for status in Status if status.is_terminal},
-        lambda: lambda status: _ends(status) if not status.is_terminal else set(),
-        lambda: lambda status: sorted(_ends(status)),
-        lambda: lambda status: {end.name for end in _ends(status)},
-        lambda: lambda status: _ends(status) | {status},
+    "stop_button": [
+        _button("drive/cancel", "cancel"),
+        _button("GoalID())", 'GoalID(id="1"))'),
+        _button('"stop", Empty', '"halt", Empty'),
+        _button("rospy.spin()", "rospy.Timer(rospy.Duration(1), on_stop)\nrospy.spin()"),
+        _button("cancel.publish(GoalID())", "rospy.signal_shutdown('stop')"),
     ],
-    "start_counter": [
-        _counter(period=0.5),
-        _counter(first=2),
-        _counter(heeds=False),
-        _counter(says=False),
-        _counter(ends="set_succeeded"),
-        lambda: _jumper,
-        lambda: _named_otherwise,
-        lambda: lambda graph: graph.node("counter"),
+    "reverse": [
+        _server("abs(goal.distance)", "goal.distance"),
+        _server('else "behind"', 'else "ahead"'),
+        _server("else -0.2", "else 0.2"),
+        _server("server.is_preempt_requested()", "False"),
+        _server("latest[front] < 0.3", "False"),
+        _server("travelled = math.hypot(place.x - start.x, place.y - start.y)", "travelled = place.x - start.x"),
+        _server("        server.publish_feedback(DriveFeedback(travelled))\n", ""),
+        _server('set_aborted(DriveResult(travelled), "blocked")', "set_aborted()"),
     ],
-    "ask_with_patience": [
-        lambda: _never_cancels,
-        lambda: _does_not_wait,
-        lambda: _always_cancels,
-        lambda: _without_limit,
-        lambda: lambda client, goal, seconds: client.send_goal_and_wait(goal, seconds),
-        lambda: lambda client, goal, seconds: ("SUCCEEDED", client.send_goal_and_wait(goal, seconds)),
-    ],
-    "start_adder": [
-        _adder(limit=1),
-        _adder(both=False),
-        _adder(accept=False),
-        _adder(reject="set_aborted"),
-        _adder(limit=-100),
-        lambda: _accepts_only,
-        lambda: lambda graph: graph.node("adder"),
+    "return_to_sender": [
+        _client("client.wait_for_result(rospy.Duration(patience))", "client.wait_for_result()"),
+        _client("    client.wait_for_result(rospy.Duration(2))\n", ""),
+        _client("    client.wait_for_result(rospy.Duration(2))", "    client.wait_for_result()"),
+        _client("-result.travelled", "-distance"),
+        _client("if result is None:", "if False:"),
+        _client('rospy.logerr("the server does not answer")', "pass"),
+        _client("-result.travelled", "result.travelled"),
     ],
 }

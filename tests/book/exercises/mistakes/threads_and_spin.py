@@ -1,0 +1,142 @@
+"""Wrong answers to the exercises of the chapter Threads and spin: right ones with a fault put in."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rosmini.book.checks import Script
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+BRAKE = """
+import rospy
+from geometry_msgs.msg import Twist
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import Header
+
+newest = None
+
+def look(scan):
+    rospy.sleep(0.5)
+    looked.publish(scan.header)
+
+def on_scan(scan):
+    global newest
+    newest = newest or scan if FIRST else scan
+    if SLOW:
+        look(scan)
+    command = Twist()
+    if min(scan.ranges[:20] + scan.ranges[-20:]) > 0.5:
+        command.linear.x = 0.2
+    cmd_vel.publish(command)
+
+rospy.init_node("courier")
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+looked = rospy.Publisher("looked", Header, queue_size=1)
+rospy.Subscriber("scan", LaserScan, on_scan, queue_size=1)
+while not rospy.is_shutdown():
+    if newest and not SLOW:
+        look(newest)
+    else:
+        rospy.sleep(0.1)
+"""
+
+LOAD = """
+import threading
+import rospy
+from std_msgs.msg import Float64
+
+load, lock = 0.0, threading.Lock()
+
+def new_load(before, change):
+    rospy.sleep(0.1)
+    return before + change
+
+def add(change):
+    global load
+    with lock:
+        load = new_load(load, change)
+        on_board.publish(load)
+
+def on_front(weight):
+    add(weight.data)
+
+def on_back(weight):
+    add(-weight.data)
+
+rospy.init_node("load")
+on_board = rospy.Publisher("load", Float64, queue_size=10)
+rospy.Subscriber("front_door", Float64, on_front)
+rospy.Subscriber("back_door", Float64, on_back)
+rospy.spin()
+"""
+
+STEADY = """
+import rospy
+from geometry_msgs.msg import Twist
+
+newest = (Twist(), 0.0)
+
+def on_wish(wish):
+    global newest
+    newest = (wish, rospy.get_time())
+
+rospy.init_node("steady")
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+rospy.Subscriber("wish", Twist, on_wish, queue_size=1)
+rate = rospy.Rate(10)
+while not rospy.is_shutdown():
+    wish, time = newest
+    if rospy.get_time() - time > 2.0:
+        wish = Twist()
+    cmd_vel.publish(wish)
+    rate.sleep()
+"""
+
+
+def _changed(name: str, source: str, *changes: tuple[str, str]) -> Callable[[], Script]:
+    for before, after in changes:
+        assert before in source
+        source = source.replace(before, after)
+    return lambda: Script(f"{name}.py", source)
+
+
+def _brake(*changes: tuple[str, str], first: bool = False, slow: bool = False) -> Callable[[], Script]:
+    return _changed("brake_first", BRAKE, ("FIRST", str(first)), ("SLOW", str(slow)), *changes)
+
+
+def _load(before: str, after: str) -> Callable[[], Script]:
+    return _changed("load", LOAD, (before, after))
+
+
+def _steady(before: str, after: str) -> Callable[[], Script]:
+    return _changed("steady", STEADY, (before, after))
+
+
+MISTAKES = {
+    "brake_first": [
+        _brake(slow=True),
+        _brake(first=True),
+        _brake((", queue_size=1)\nwhile", ")\nwhile"), slow=True),
+        _brake(("look(newest)", "rospy.sleep(0.5)")),
+        _brake(("> 0.5", "> 0.2")),
+        _brake(("> 0.5", "> 0.8")),
+        _brake(("    cmd_vel.publish(command)\n", "")),
+    ],
+    "weight_on_board": [
+        _load("threading.Lock()", "threading.Semaphore(9)"),
+        _load("add(-weight.data)", "add(weight.data)"),
+        _load("        on_board.publish(load)\n", ""),
+        _load('"back_door"', '"rear_door"'),
+        _load("load = new_load(load, change)\n        on_board", "on_board"),
+    ],
+    "steady": [
+        _steady("Rate(10)", "Rate(5)"),
+        _steady("> 2.0", "> 20.0"),
+        _steady("> 2.0", "> 1.0"),
+        _steady("rate.sleep()", "rospy.sleep(0.15)"),
+        _steady("wish = Twist()", "continue"),
+        _steady('"wish"', '"wishes"'),
+    ],
+}
