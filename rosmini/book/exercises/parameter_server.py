@@ -72,7 +72,11 @@ def paused(answer: Script) -> Any:
             trial.run(4.0)
             trial.expect_no_errors()
             said = "is not set" if value is None else f"is {value}"
-            expect(len(got) >= 38, f"While /paused {said}, it sends fewer than ten commands a second.")
+            expect(
+                len(got) >= 38,
+                f"While /paused {said}, it sends fewer than ten commands a second.",
+                "publish in each turn",
+            )
             expect(
                 all(math.isclose(sent, speed, abs_tol=1e-9) for sent in got),
                 f"While /paused {said}, it sends {got[-1]:g} m/s, not {speed:g} m/s.",
@@ -143,7 +147,7 @@ def measured(answer: Script) -> Any:
         gone = [name for name in ("name", "wheel/separation") if not boss.has_param(f"/robot/{name}")]
         expect(
             not gone,
-            f"/robot/{' and /robot/'.join(gone)} is gone.",
+            f"Not there any more: /robot/{', /robot/'.join(gone)}.",
             "set_param with a dictionary replaces the namespace: set each value by its full name",
         )
         expect(found == MERGED, f"/robot is {found}, not {MERGED}.", "a list is one value; a dictionary is not")
