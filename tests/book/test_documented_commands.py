@@ -103,6 +103,7 @@ sleep 2
 cp {DRIVE} {DRIVE}.active
 cp {DRIVE} news.bag
 """
+SHELF = "%rosrun --quiet tf2_ros static_transform_publisher 1.5 1.0 0 0 0 0 odom shelf"
 ROBOT = "%rosrun rosmini_sim simulator _world:=room"
 FILES = """%%terminal
 cat > robot.yaml << 'EOF'
@@ -133,7 +134,7 @@ GRAPHS: dict[str, tuple[str, ...]] = {
     "names": (ROBOT, TALKER),
     "simulation_and_stage": (FILES,),
     "gazebo": (CRATE, "%roslaunch gazebo_ros empty_world.launch gui:=false"),
-    "frames": (ROBOT,),
+    "frames": (ROBOT, SHELF),
     "maps": (FILES,),
     "turtlebot3": (ROBOT,),
     "publish_subscribe": (ROBOT, TALKER, RECORDED),

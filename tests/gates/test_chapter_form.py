@@ -75,7 +75,6 @@ TO_REWRITE: dict[str, set[str]] = {
     "services": {"first motion", "hints", "lines", "mentions", "private API", "time"},
     "names": {"cells", "hints", "lines", "mentions", "private API", "time", "words"},
     "bags": {"cells", "columns", "hints", "lines", "mentions", "private API"},
-    "frames": {"cells", "columns", "hints", "lines", "mentions", "private API", "time"},
     "turtlebot3": {"cells", "columns", "first motion", "hints", "lines", "mentions", "private API", "words"},
     "teleoperation": {"cells", "columns", "hints", "lines", "mentions", "private API", "words"},
     "file_system": {"columns", "mentions"},

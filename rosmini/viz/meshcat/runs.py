@@ -30,12 +30,16 @@ from rosmini.viz.view import ViewError
 from rosmini.viz.world_pictures import colour_of, pose_text
 
 from .compression import compress
+from .moving_frames import MovingFrames
 from .scene3d import ROBOT, Scene3D, obstacle_node
 from .view import HEIGHT, Focus, MeshcatView, camera_for, node_of, title_of
 
 Floats = NDArray[np.float64]
 ROBOT_DISTANCE = 1.5
 """Distance of the camera from a robot that it follows [m]."""
+
+TF = "/tf"
+"""The topic that stands for the axes of all frames."""
 
 PLAYER_SCRIPTS = ("rosmini-replay-data.js", "rosmini-meshcat.js", "rosmini-meshcat-player.js")
 """Scripts that a viewer needs to play a run."""
@@ -62,7 +66,8 @@ def replay_3d(
     """Play a run: the robot as it drives, and published maps, costmaps, plans and particles on the ground.
 
     The camera follows the robot, or stands still if the focus is the world. `scans` shows the laser scans of a
-    recording, each beam from the robot's pose at its measurement. `topics` and `frame` are those of `replay`; `robot`
+    recording, each beam from the robot's pose at its measurement. `topics` and `frame` are those of `replay`, but `/tf`
+    among the topics shows the axes of the recorded frames; `robot`
     is the model of the robots of a bag, which are otherwise flat arrowheads. Several runs are shown side by side with
     one clock, with `names` above them, and turning one view turns all.
 
@@ -76,12 +81,13 @@ def replay_3d(
         raise ViewError(f"replay_3d needs at least one run, and as many names as runs, not {len(sources)} and {names}")
     camera_args = {"focus": focus, "distance": distance, "azimuth": azimuth, "elevation": elevation}
     known = model(robot) if isinstance(robot, str) else robot
+    has_axes = topics is not None and TF in topics
     made: list[MeshcatView] = []
     alone = title if len(sources) == 1 else None
     for source in sources:
         if isinstance(source, Recording):
             kept = recorder_run(source, topics=topics, frame=frame)
-            view = _recording(source, kept, camera_args, scans=scans, title=alone, height=height)
+            view = _recording(source, kept, camera_args, scans=scans, axes=has_axes, title=alone, height=height)
         else:
             kept = run_from(source, topics=topics, frame=frame, robot=known)
             view = _run(kept, known, camera_args, title=alone, height=height)
@@ -93,9 +99,10 @@ def replay_3d(
 
 
 def _recording(
-    recording: Recording, kept: Run | None, camera_args: dict[str, Any], *, scans: bool, title: str | None, height: int
+    recording: Recording, kept: Run | None, camera_args: dict[str, Any], *, scans: bool, axes: bool, title: str | None,
+    height: int,
 ) -> MeshcatView:  # fmt: skip
-    """Show a simulated robot in its world; `kept` contains the layers recorded with it."""
+    """Show a simulated robot in its world; `kept` has the layers recorded with it, `axes` asks for its frames."""
     world, model, truth = recording.world, recording.model, recording.truth
     start: Pose = tuple(truth[0].tolist())
     is_close = camera_args["focus"] == "robot"
@@ -115,6 +122,9 @@ def _recording(
     if seen is not None:
         scene.add_scan(model, np.full(seen["beams"], np.inf))
     scene.animate(recording.times - begin, _all_tracks(scene, recording))
+    frames = MovingFrames(recording) if axes else None
+    if frames is not None:
+        frames.add_to(scene)
     label = f"{model.title or model.name} in {title_of(world)}: a run in 3D"
     driven = f"{fixed(recording.duration, 1)} s, {fixed(recording.distance, 2)} m"
     off = fixed(float(recording.drift().position[-1]), 2)
@@ -122,11 +132,13 @@ def _recording(
         f"3D replay: {model.name} in {world.name}, {driven}\n"
         f"from {pose_text(start)} to {pose_text(tuple(truth[-1].tolist()))}; odometry ends {off} m off"
         + "".join(f"\n{each.name} ({each.model.name}): {fixed(each.distance, 2)} m" for each in recording.others)
+        + (f"\nframes: {', '.join(frames.poses)}" if frames is not None else "")
         + "".join(f"\n{line}" for line in (kept.text().splitlines()[1:] if kept is not None else ()))
     )
     alt = (
         f"A player with {model.title or model.name} in {title_of(world)}, in three dimensions: it drives {driven}. "
         f"Lines on the ground show its way and, {off} m off at its end, the way that odometry believes in."
+        f"{' Red, green and blue bars are the axes of its frames.' if frames is not None else ''}"
         f"{other_robots_sentence(recording)}{layers_sentence(kept)}"
     )
     view = MeshcatView(

@@ -95,7 +95,7 @@ class Trail:
 
 @dataclass(frozen=True)
 class Motion:
-    """The change of a property of the object at a path: values (n, 1) or (n, 3) [m or rad] at times (n,) [s]."""
+    """The change of a property of the object at a path: values (n, k) [m or rad] at times (n,) [s]."""
 
     path: str
     name: str
@@ -346,9 +346,9 @@ class Scene3D:
         self.visualizer[f"trails/{name}"].set_object(strip, material)
 
     def animate(self, times: Floats, tracks: Iterable[tuple[str, str, Floats]]) -> None:
-        """Animate nodes: tracks are (node, property, values), values (n,) or (n, 3) at `times` (n,), linear in between.
+        """Animate nodes: tracks are (node, property, values), values (n,) or (n, k) at `times` (n,), linear in between.
 
-        Properties are those of three.js: `position`, `rotation[z]` ... Samples that follow from others are left out.
+        Properties are those of three.js: `position`, `quaternion`, `rotation[z]` ... Redundant samples are left out.
         """
         for node, name, values in tracks:
             table = values.reshape(len(times), -1)

@@ -112,8 +112,8 @@
   /* What moves in a scene, as the command of meshcat that says so. */
   function animation(tracks) {
     const animations = tracks.map(([path, name, packed]) => {
-      const type = name === "position" ? "vector3" : "number";
-      const keys = columns(packed, [TIME, ...Array(type === "number" ? 1 : 3).fill(UNIT)]).map(([time, ...value]) => ({ time, value: type === "number" ? value[0] : value }));
+      const [type, width] = { position: ["vector3", 3], quaternion: ["quaternion", 4] }[name] ?? ["number", 1];
+      const keys = columns(packed, [TIME, ...Array(width).fill(UNIT)]).map(([time, ...value]) => ({ time, value: type === "number" ? value[0] : value }));
       return { path, clip: { fps: 1, name: "default", tracks: [{ name: `.${name}`, type, keys }] } };
     });
     return { type: "set_animation", animations, options: { play: false, repetitions: 1 } };

@@ -1,62 +1,127 @@
-"""Wrong answers to the exercises of the chapter Frames."""
+"""Wrong answers to the exercises of the chapter Frames: right ones with a fault put in."""
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+from rosmini.book.checks import Script
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+CARROT = """
 import math
-from typing import Any
+import rospy
+import tf2_ros
+from geometry_msgs.msg import TransformStamped
 
-from rosmini.core.tf import Buffer
-from rosmini.core.tf.messages import scan_points, transform_of
-from rosmini.core.tf.rigid import Rigid, compose, inverse, matrix
-from rosmini.core.time import Time
+def swing(event):
+    pose = TransformStamped()
+    now = rospy.Time.now()
+    pose.header.stamp = now
+    pose.header.frame_id = "base_footprint"
+    pose.child_frame_id = "carrot"
+    pose.transform.translation.x = 0.5
+    pose.transform.translation.y = 0.4 * math.sin(now.to_sec())
+    pose.transform.rotation.w = 1.0
+    broadcaster.sendTransform(pose)
+
+rospy.init_node("carrot")
+broadcaster = tf2_ros.TransformBroadcaster()
+rospy.Timer(rospy.Duration(0.05), swing)
+rospy.spin()
+"""
+
+MOUNT = """
+import math
+import rospy
+import tf2_ros
+from geometry_msgs.msg import TransformStamped
+from tf.transformations import quaternion_from_euler
+
+rospy.init_node("mount")
+pose = TransformStamped()
+pose.header.stamp = rospy.Time.now()
+pose.header.frame_id = "base_link"
+pose.child_frame_id = "flipped"
+pose.transform.translation.x = 0.1
+pose.transform.translation.z = 0.3
+q = quaternion_from_euler(math.pi, 0, 0)
+pose.transform.rotation.x, pose.transform.rotation.y = q[:2]
+pose.transform.rotation.z, pose.transform.rotation.w = q[2:]
+broadcaster = tf2_ros.StaticTransformBroadcaster()
+broadcaster.sendTransform(pose)
+rospy.spin()
+"""
+
+LOCALISE = """
+import rospy
+import tf2_ros
+from geometry_msgs.msg import PoseStamped, TransformStamped
+from nav_msgs.msg import Odometry
+from tf2_geometry_msgs import do_transform_pose
+
+def on_truth(truth):
+    try:
+        found = buffer.lookup_transform("base_footprint", "odom", truth.header.stamp, rospy.Duration(0.1))
+    except tf2_ros.TransformException:
+        return
+    odom = PoseStamped()
+    odom.pose.position = found.transform.translation
+    odom.pose.orientation = found.transform.rotation
+    base = TransformStamped()
+    base.transform.translation = truth.pose.pose.position
+    base.transform.rotation = truth.pose.pose.orientation
+    odom = do_transform_pose(odom, base)
+    result = TransformStamped()
+    result.header.stamp = truth.header.stamp
+    result.header.frame_id = "map"
+    result.child_frame_id = "odom"
+    result.transform.translation = odom.pose.position
+    result.transform.rotation = odom.pose.orientation
+    broadcaster.sendTransform(result)
+
+rospy.init_node("localise")
+buffer = tf2_ros.Buffer()
+listener = tf2_ros.TransformListener(buffer)
+broadcaster = tf2_ros.TransformBroadcaster()
+rospy.Subscriber("base_pose_ground_truth", Odometry, on_truth)
+rospy.spin()
+"""
 
 
-def _points(buffer: Buffer, scan: Any) -> Any:
-    header = scan.header
-    return buffer.transform_points(scan_points(scan), "base_link", header.frame_id, header.stamp)
-
-
-def _correction(map_base: Rigid, buffer: Buffer, stamp: Time) -> Rigid:
-    return compose(map_base, inverse(transform_of(buffer.lookup_transform("odom", "base_footprint", stamp))))
+def wrong(name: str, right: str, old: str, new: str) -> Callable[[], Script]:
+    """Return what makes a script with one place of it changed."""
+    assert old in right
+    return lambda: Script(name, right.replace(old, new))
 
 
 MISTAKES = {
-    "nearest_to_base": [
-        lambda: lambda _buffer, scan: min(scan.ranges),
-        lambda: (
-            lambda buffer, scan: min(
-                math.hypot(x, y) for x, y, _ in buffer.transform_points(scan_points(scan), "front_laser", "base_link")
-            )
-        ),
-        lambda: _points,
-        lambda: lambda buffer, scan: min(math.hypot(x, y, z) for x, y, z in _points(buffer, scan)),
-        lambda: (
-            lambda buffer, scan: min(
-                math.hypot(x, y) for x, y, _ in buffer.transform_points(scan_points(scan), "base_link", "front_laser")
-            )
-        ),
-        lambda: lambda buffer, scan: min(math.hypot(x, y) for x, y, _ in _points(buffer, scan)),
-        lambda: lambda buffer, scan: min((math.hypot(x, y) for x, y, _ in _points(buffer, scan)), default=0.0),
+    "carrot": [
+        wrong("carrot.py", CARROT, '"base_footprint"', '"odom"'),
+        wrong("carrot.py", CARROT, '"carrot"\n    pose.t', '"carot"\n    pose.t'),
+        wrong("carrot.py", CARROT, "    pose.header.stamp = now\n", ""),
+        wrong("carrot.py", CARROT, "    pose.transform.rotation.w = 1.0\n", ""),
+        wrong("carrot.py", CARROT, "math.sin", "math.cos"),
+        wrong("carrot.py", CARROT, "translation.x = 0.5", "translation.x = 5"),
+        wrong("carrot.py", CARROT, "swing)", "swing, oneshot=True)"),
     ],
-    "map_to_odom": [
-        lambda: (
-            lambda buffer, map_base, stamp: compose(
-                inverse(transform_of(buffer.lookup_transform("odom", "base_footprint", stamp))), map_base
-            )
-        ),
-        lambda: lambda buffer, map_base, stamp: inverse(_correction(map_base, buffer, stamp)),
-        lambda: lambda _buffer, map_base, _stamp: map_base,
-        lambda: lambda buffer, map_base, _stamp: _correction(map_base, buffer, Time(0)),
-        lambda: lambda buffer, map_base, stamp: matrix(_correction(map_base, buffer, stamp)),
+    "upside_down": [
+        wrong("mount.py", MOUNT, "(math.pi, 0, 0)", "(0, math.pi, 0)"),
+        wrong("mount.py", MOUNT, "(math.pi, 0, 0)", "(0, 0, 0)"),
+        wrong("mount.py", MOUNT, "(math.pi, 0, 0)", "(180, 0, 0)"),
+        wrong("mount.py", MOUNT, "translation.z = 0.3", "translation.y = 0.3"),
+        wrong("mount.py", MOUNT, '"flipped"', '"laser"'),
+        wrong("mount.py", MOUNT, '"base_link"', '"base_footprint"'),
+        wrong("mount.py", MOUNT, "StaticTransformBroadcaster", "TransformBroadcaster"),
+        wrong("mount.py", MOUNT, "rospy.spin()", "broadcaster.send(pose)"),
     ],
-    "moved": [
-        lambda: lambda buffer, _start, _end: buffer.lookup_transform("odom", "base").transform.translation.x,
-        lambda: lambda buffer, _start, end: buffer.lookup_transform("odom", "base", end).transform.translation.x,
-        lambda: (
-            lambda buffer, start, end: (
-                buffer.lookup_transform("odom", "base", end).transform.translation.x
-                - buffer.lookup_transform("odom", "base", start).transform.translation.x
-            )
-        ),
+    "localise": [
+        wrong("localise.py", LOCALISE, "truth.header.stamp, rospy.Duration(0.1)", "rospy.Time(0)"),
+        wrong("localise.py", LOCALISE, '"base_footprint", "odom"', '"odom", "base_footprint"'),
+        wrong("localise.py", LOCALISE, "    result.header.stamp = truth.header.stamp\n", ""),
+        wrong("localise.py", LOCALISE, '"map"', '"odom"'),
+        wrong("localise.py", LOCALISE, "    odom = do_transform_pose(odom, base)\n", ""),
+        wrong("localise.py", LOCALISE, "    broadcaster.sendTransform(result)\n", ""),
     ],
 }
