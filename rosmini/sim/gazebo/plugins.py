@@ -25,7 +25,6 @@ from rosmini.core.errors import nearest
 from rosmini.core.markup import Element
 from rosmini.sim.host import Device, Host, Stamp
 
-from .absent import ABSENT
 from .body import Body
 from .errors import UnknownPlugin
 from .model import GazeboWorld, Model, Sensor
@@ -150,7 +149,7 @@ def plugin_class(filename: str) -> type[Plugin]:
     found = _CLASSES.get(base)
     if found is None:
         known = plugin_filenames()
-        hint = ABSENT.get(base) or nearest(filename, known) or f"there are: {', '.join(known)}"
+        hint = nearest(filename, known) or f"there are: {', '.join(known)}"
         raise UnknownPlugin(f"Failed to load plugin {filename}: there is no plugin of this name in rosmini; {hint}")
     return found
 

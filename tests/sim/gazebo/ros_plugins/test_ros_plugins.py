@@ -10,9 +10,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rosmini.sim.gazebo.absent import ABSENT
-from rosmini.sim.gazebo.plugins import plugin_filenames
-
 from ..conftest import DIFF_DRIVE, LASER, Bench, box, urdf
 
 Start = Callable[..., Bench]
@@ -411,23 +408,6 @@ def test_unknown_plugins_and_tags_are_warned_of_with_the_nearest(
     )
     assert "did you mean libgazebo_ros_diff_drive.so?" in said
     assert "<topicname> means nothing to the plugin; did you mean topicName?" in said
-
-
-def test_of_a_plugin_that_gazebo_has_it_is_told_what_it_would_have_done(
-    bench: Start, capsys: pytest.CaptureFixture[str]
-) -> None:
-    text = (
-        '<gazebo><plugin name="control" filename="libgazebo_ros_control.so">'
-        "<robotNamespace>/r</robotNamespace></plugin></gazebo>"
-    )
-    assert bench().spawn(urdf(text), "r").success
-    said = "".join(capsys.readouterr())
-    assert (
-        "Failed to load plugin libgazebo_ros_control.so: there is no plugin of this name in rosmini; it lets joints "
-        "be moved from ROS" in said
-    )
-    assert "the model 'r' goes on without a plugin: Failed to load" in said
-    assert not {name for name in ABSENT if f"lib{name}.so" in plugin_filenames()}
 
 
 def test_a_plugin_in_the_wrong_place_is_left_out(bench: Start, capsys: pytest.CaptureFixture[str]) -> None:
