@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from rosmini.core.errors import DefinitionError, RosminiError, UnknownPackage, nearest
-from rosmini.core.packages import BUILT_IN, Package, PackageIndex, Stack
+from rosmini.core.errors import DefinitionError, UnknownPackage, nearest
+from rosmini.core.packages import BUILT_IN, Package, PackageIndex
 
 MAX_LINES = 10_000
 """Maximum number of lines of an answer that can grow exponentially with the number of packages."""
@@ -20,8 +20,7 @@ MAX_LINES = 10_000
 class Dependencies:
     """The dependency graph of the packages, or, if ``stacks`` is true, of the stacks of an index.
 
-    rospack does not count metapackages as packages. rosstack counts every catkin package, and every folder with a
-    ``stack.xml``, as a stack, but not rosbuild packages.
+    rospack does not count metapackages as packages. rosstack counts every package as a stack.
     """
 
     index: PackageIndex
@@ -34,49 +33,28 @@ class Dependencies:
 
     def names(self) -> list[str]:
         """Return the names, sorted."""
-        if not self.stacks:
-            return sorted({*self.index.names()} - {*self.index.metapackages()})
-        wet = (name for name in self.index.names() if (self.index.path(name) / "package.xml").is_file())
-        return sorted({*wet, *self.index.stacks()})
+        return sorted({*self.index.names()} - (set() if self.stacks else {*self.index.metapackages()}))
 
-    def find(self, name: str) -> Package | Stack:
+    def find(self, name: str) -> Package:
         """Return one of them. Raises `UnknownPackage`, with similar names, and `DefinitionError` for a bad manifest."""
         if name not in self.names():
             raise UnknownPackage(BUILT_IN.get(name) or nearest(name, self.names()))
-        if self.stacks and name in self.index.stacks():
-            return self.index.find_stack(name)
         return self.index.find(name)
 
     def path(self, name: str) -> Path:
         """Return the folder of one. Raises as `find` does, but does not read the manifest."""
         if name not in self.names():
             raise UnknownPackage(BUILT_IN.get(name) or nearest(name, self.names()))
-        if self.stacks and name in self.index.stacks():
-            return self.index.find_stack(name).path
         return self.index.path(name)
 
     def manifest(self, name: str) -> Path:
         """Return the path of a manifest. Raises as `find` does."""
-        found = self.find(name)
-        return found.path / "stack.xml" if isinstance(found, Stack) else found.manifest
+        return self.find(name).manifest
 
     def direct(self, name: str) -> list[str]:
-        """Return the direct dependencies of ``name``, in rospack's order.
-
-        Raises as `find` does, and `RosminiError` if a rosbuild package or a stack depends on a missing one.
-        """
-        found, known = self.find(name), {*self.names()}
-        if isinstance(found, Stack) or found.is_rosbuild:
-            needed = found.depends if isinstance(found, Stack) else found.exec_depends
-            for each in needed:
-                if each not in known:
-                    hint = nearest(each, known)
-                    raise RosminiError(
-                        f"{self.noun} '{name}' depends on non-existent package '{each}'; "
-                        f"{hint or f'check the ROS_PACKAGE_PATH, or {self.manifest(name)}'}"
-                    )
-            return list(needed)
-        return [each for each in found.exec_depends if each in known]
+        """Return the direct dependencies of ``name``, in rospack's order. Raises as `find` does."""
+        known = {*self.names()}
+        return [each for each in self.find(name).exec_depends if each in known]
 
     def all_of(self, name: str) -> list[str]:
         """Return all dependencies of ``name``, each after its own dependencies. Raises as `direct` does."""
@@ -108,7 +86,7 @@ class Dependencies:
             except DefinitionError as error:
                 broken.append(error)
                 continue
-            for need in package.depends if isinstance(package, Stack) else package.exec_depends:
+            for need in package.exec_depends:
                 needed_by.setdefault(need, []).append(each)
         if direct:
             return sorted(needed_by.get(name, ())), broken

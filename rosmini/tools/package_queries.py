@@ -244,7 +244,7 @@ def _timed(folder: Path) -> tuple[float, Path, bool, bool]:
     """Return the time to search a folder, whether it is a package, and whether it is empty."""
     start = perf_counter()
     found = list(crawl(folder))
-    return perf_counter() - start, folder, any(each.folder == folder for each in found), not found
+    return perf_counter() - start, folder, folder in found, not found
 
 
 def _folders_in(root: Path) -> list[Path]:

@@ -56,13 +56,11 @@ def located(location: str, command: str, index: PackageIndex | None = None) -> P
     index = PackageIndex() if index is None else index
     if name == LOG:
         folder = Path(os.environ.get("ROS_LOG_DIR") or Path(os.environ.get("ROS_HOME") or Path.home() / ".ros", "log"))
-    elif name in index.stacks() and name not in index:
-        folder = index.find_stack(name).path
     else:
         try:
             folder = index.path(name)
         except UnknownPackage as error:
-            hint = nearest(name, [*index.names(), *index.stacks()])
+            hint = nearest(name, index.names())
             raise RosminiError(f"No such package/stack '{name}'{f'; {hint}' if hint else ''}") from error
     path = folder / rest if rest else folder
     if not files.exists(path):

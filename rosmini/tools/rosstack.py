@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 
 from rosmini.core.packages import PackageIndex
 from rosmini.core.verbs import Call, Lines, Tool
@@ -18,27 +17,20 @@ add_parser, main = Terminal(TOOL).add_parser, QUERIES.main
 
 
 def _container(index: PackageIndex, package: str) -> str:
-    """Return the stack that contains a package; a catkin package is its own. Raises ``VerbError`` without a stack."""
+    """Return the stack that contains a package, which is the package itself. Raises ``VerbError`` if it is unknown."""
     if package in index:
-        if package in QUERIES.known().names():
-            return package
-        folders = {index.find_stack(name).path: name for name in index.stacks()}
-        for folder in index.path(package).parents:
-            if folder in folders:
-                return folders[folder]
+        return package
     raise QUERIES.error(f"stack containing package {package} not found")
 
 
 @TOOL.verb("list the packages in a stack", parser=QUERIES.parser("contents", named="stack"))
 def contents(given: argparse.Namespace, _call: Call) -> Lines:
-    """Return the packages below the folder of a stack; for a metapackage, its dependencies."""
+    """Return the dependencies of a metapackage; any other stack has no packages."""
     known = QUERIES.known()
     name = QUERIES.name(given, known)
     index = known.index
     with QUERIES.original_errors(f"no such stack {name}"):
-        folder: Path = known.path(name)
-        if name in index.stacks():
-            return Lines(lines=tuple(each for each in index.names() if folder in index.path(each).parents))
+        known.path(name)
         gathered = index.find(name).exec_depends if name in index.metapackages() else ()
         return Lines(lines=gathered)
 

@@ -33,9 +33,7 @@ def _parser() -> ArgumentParser:
 
 
 def version(package: str, index: PackageIndex) -> str:
-    """Return the version of a package or of a stack. Raises `UnknownPackage`."""
-    if package in index.stacks():
-        return index.find_stack(package).version or "<unversioned>"
+    """Return the version of a package. Raises `UnknownPackage`."""
     return index.find(package).version or "<unversioned>"
 
 
@@ -51,5 +49,5 @@ def _version(given: argparse.Namespace, _call: Call) -> Lines:
     try:
         return Lines(lines=(version(given.package, index),), end=end)
     except UnknownPackage:
-        hint = nearest(given.package, [*index.names(), *index.stacks()])
+        hint = nearest(given.package, index.names())
         return Lines(lines=(f"Cannot locate [{given.package}]",), complaints=(hint,) if hint else (), status=1)

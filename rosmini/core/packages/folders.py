@@ -6,13 +6,10 @@ import os
 from collections import deque
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import NamedTuple
 
 from rosmini.core.errors import RosminiError
 
 MANIFEST = "package.xml"
-ROSBUILD_MANIFEST = "manifest.xml"
-STACK_MANIFEST = "stack.xml"
 
 
 def assets_dir() -> Path:
@@ -54,20 +51,8 @@ def package_around(path: str | os.PathLike[str]) -> Path | None:
     return next((folder for folder in Path(path).absolute().parents if (folder / MANIFEST).is_file()), None)
 
 
-class Crawled(NamedTuple):
-    """A folder found by the crawl, and the name of the manifest in it."""
-
-    folder: Path
-    manifest: str
-
-    @property
-    def file(self) -> Path:
-        """The path of the manifest."""
-        return self.folder / self.manifest
-
-
-def crawl(root: Path) -> Iterator[Crawled]:
-    """Yield the folders of all packages and stacks at or below ``root``, breadth first, then by name."""
+def crawl(root: Path) -> Iterator[Path]:
+    """Yield the folders of all packages at or below ``root``, breadth first, then by name."""
     seen: set[str] = set()  # real paths, to stop at cyclic links
     waiting = deque([root])
     while waiting:
@@ -83,11 +68,7 @@ def crawl(root: Path) -> Iterator[Crawled]:
             continue  # missing or unreadable: rospack skips it too
         if "CATKIN_IGNORE" in content:
             continue
-        manifest = next((name for name in (MANIFEST, ROSBUILD_MANIFEST) if content.get(name) is False), None)
-        if manifest is not None:
-            yield Crawled(folder, manifest)
-            continue
-        if content.get(STACK_MANIFEST) is False:
-            yield Crawled(folder, STACK_MANIFEST)
-        if "rospack_nosubdirs" not in content:
+        if content.get(MANIFEST) is False:
+            yield folder
+        elif "rospack_nosubdirs" not in content:
             waiting.extend(folder / name for name in sorted(content) if content[name] and not name.startswith("."))

@@ -1,4 +1,4 @@
-"""The package index: finds packages, stacks, files and executables by name."""
+"""The package index: finds packages, files and executables by name."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from rosmini.core import files
 from rosmini.core.errors import DefinitionError, RosminiError, ScriptError, UnknownPackage, nearest
 
 from .executables import Executable, built, built_in_nodes, files_of, has_run_bit, scripts
-from .folders import MANIFEST, ROSBUILD_MANIFEST, crawl, search_paths
-from .manifest import Package, Stack, read_heading, read_package, read_stack
+from .folders import MANIFEST, crawl, search_paths
+from .manifest import Package, read_heading, read_package
 
 SCHEME = "package://"
 MAX_ADDRESS_LENGTH = 300
@@ -55,7 +55,6 @@ class PackageIndex:
         self.paths: tuple[Path, ...] = search_paths() if paths is None else tuple(Path(path) for path in paths)
         self._found: dict[str, list[Path]] | None = None
         self._metapackages: set[str] = set()
-        self._stacks: dict[str, Path] = {}
         self._broken: list[DefinitionError] = []
         self._packages: dict[str, Package] = {}
 
@@ -69,7 +68,6 @@ class PackageIndex:
         """Discard the results of the search; the next query searches again."""
         self._found = None
         self._metapackages = set()
-        self._stacks = {}
         self._broken = []
         self._packages = {}
 
@@ -114,19 +112,6 @@ class PackageIndex:
     def duplicates(self) -> dict[str, list[Path]]:
         """Return the folders of each package that was found more than once, by name; the first folder is used."""
         return {name: paths for name, paths in sorted(self._folders().items()) if len(paths) > 1}
-
-    def stacks(self) -> list[str]:
-        """Return the names of all stacks from before catkin (folders with a ``stack.xml``), sorted."""
-        self._folders()
-        return sorted(self._stacks)
-
-    def find_stack(self, name: str) -> Stack:
-        """Return the stack of this name. Raises `UnknownPackage`, and `DefinitionError` for a bad ``stack.xml``."""
-        self._folders()
-        if name not in self._stacks:
-            guess = nearest(name, self.stacks())
-            raise UnknownPackage(f"there is no stack {name!r}{f'; {guess}' if guess else ''}")
-        return read_stack(self._stacks[name])
 
     def resolve(self, url: str) -> Path:
         """Return the file or folder of ``package://name/path`` (http://wiki.ros.org/resource_retriever).
@@ -187,24 +172,19 @@ class PackageIndex:
         """Return the folders of each package, by name; the first one is used."""
         if self._found is None:
             found: dict[str, list[Path]] = {}
-            stacks: dict[str, Path] = {}
             metapackages: set[str] = set()
             broken: list[DefinitionError] = []
             for root in self.paths:
-                for each in crawl(root):
+                for folder in crawl(root):
                     try:
-                        if each.manifest == MANIFEST:
-                            name, is_metapackage = read_heading(each.file)
-                            if is_metapackage and name not in found:
-                                metapackages.add(name)
-                            found.setdefault(name, []).append(each.folder)
-                        elif each.manifest == ROSBUILD_MANIFEST:
-                            found.setdefault(each.folder.name, []).append(each.folder)
-                        else:
-                            stacks.setdefault(each.folder.name, each.folder)
+                        name, is_metapackage = read_heading(folder / MANIFEST)
                     except DefinitionError as error:
                         broken.append(error)
-            self._found, self._stacks, self._broken = found, stacks, broken
+                        continue
+                    if is_metapackage and name not in found:
+                        metapackages.add(name)
+                    found.setdefault(name, []).append(folder)
+            self._found, self._broken = found, broken
             self._metapackages = metapackages
         return self._found
 

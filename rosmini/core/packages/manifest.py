@@ -1,4 +1,4 @@
-"""Manifests: ``package.xml`` in its formats 1 to 3, and rosbuild's ``manifest.xml`` and ``stack.xml``."""
+"""Manifests: ``package.xml`` in its formats 1 to 3."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from rosmini.core import files
 from rosmini.core.errors import DefinitionError
 from rosmini.core.names import ROS_RELEASE
 
-from .folders import MANIFEST, ROSBUILD_MANIFEST, STACK_MANIFEST
+from .folders import MANIFEST
 
 MAX_TAGS = 2000
 """Maximum number of tags in a ``package.xml``: catkin_pkg compares all pairs of dependencies."""
@@ -44,24 +44,11 @@ class Package:
     """Packages needed to run it, in the order in which ``rospack depends1`` prints them."""
     is_metapackage: bool
     exports: tuple[Export, ...] = ()
-    is_rosbuild: bool = False
-    """True for a package from before catkin, with a ``manifest.xml``."""
 
     @property
     def manifest(self) -> Path:
         """The path of its manifest."""
-        return self.path / (ROSBUILD_MANIFEST if self.is_rosbuild else MANIFEST)
-
-
-@dataclass(frozen=True)
-class Stack:
-    """A stack from before catkin: a folder of packages with a ``stack.xml``."""
-
-    name: str
-    path: Path
-    version: str
-    depends: tuple[str, ...]
-    """Stacks needed by it, in the order of the file."""
+        return self.path / MANIFEST
 
 
 def _read(manifest: Path) -> bytes:
@@ -106,12 +93,10 @@ def read_heading(manifest: Path) -> Heading:
 
 
 def read_package(folder: Path) -> Package:
-    """Return the package in ``folder``, from ``package.xml`` or ``manifest.xml``. Raises `DefinitionError`."""
-    manifest = folder / MANIFEST
-    if not manifest.is_file() and (folder / ROSBUILD_MANIFEST).is_file():
-        return _read_rosbuild(folder)
+    """Return the package in ``folder``, from its ``package.xml``. Raises `DefinitionError`."""
     from catkin_pkg.package import InvalidPackage, parse_package_string
 
+    manifest = folder / MANIFEST
     read_heading(manifest)  # check that it is harmless XML
     data = _read(manifest)
     if data.count(b"<") > MAX_TAGS:
@@ -138,39 +123,6 @@ def read_package(folder: Path) -> Package:
             for each in parsed.exports
         ),
     )
-
-
-def _read_rosbuild(folder: Path) -> Package:
-    """Return the package in ``folder`` by its ``manifest.xml`` (http://wiki.ros.org/Manifest), named as its folder."""
-    from rosmini.core.markup import parse_file
-
-    root = parse_file(folder / ROSBUILD_MANIFEST)
-    if root.tag != "package":
-        raise root.error(f"a manifest begins with <package>, this one with <{root.tag}>")
-    needed = tuple(dict.fromkeys(each.attribute("package") for each in root.all("depend")))
-    exports = [each for block in root.all("export") for each in block]
-    return Package(
-        name=folder.name,
-        path=folder,
-        version=root.word("version"),
-        description=" ".join(root.word("description").split()),
-        depends=tuple(sorted(needed)),
-        exec_depends=needed,
-        is_metapackage=False,
-        exports=tuple(Export(each.tag, tuple(each.attributes.items())) for each in exports),
-        is_rosbuild=True,
-    )
-
-
-def read_stack(folder: Path) -> Stack:
-    """Return the stack in ``folder`` by its ``stack.xml``, named after the folder. Raises `DefinitionError`."""
-    from rosmini.core.markup import parse_file
-
-    root = parse_file(folder / STACK_MANIFEST)
-    if root.tag != "stack":
-        raise root.error(f"a stack's manifest begins with <stack>, this one with <{root.tag}>")
-    needed = tuple(dict.fromkeys(each.attribute("stack") for each in root.all("depend")))
-    return Stack(folder.name, folder, root.word("version"), needed)
 
 
 def _reason(error: Exception) -> str:

@@ -99,9 +99,8 @@ def make(
 
 def _read(workspace: Workspace, report: Report) -> list[Source]:
     """Return the packages of the workspace. Raises `CatkinError` if two have the same name."""
-    folders, report.findings = workspace.packages()
     found: dict[str, Source] = {}
-    for folder in folders:
+    for folder in workspace.packages():
         package, project, findings = checks.read(folder)
         report.findings += [*findings, *checks.nested(folder)]
         if package is None or any(each.is_error for each in findings):

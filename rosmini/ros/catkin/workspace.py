@@ -11,7 +11,7 @@ from pathlib import Path
 from rosmini.core import files
 from rosmini.core.packages import DEVEL_MARKER, MANIFEST, crawl
 
-from .findings import CatkinError, Finding
+from .findings import CatkinError
 from .project import CMAKE
 
 TOOL = "rosmini catkin_make"
@@ -75,19 +75,15 @@ class Workspace:
                     f"{folder} was made by {other[:40]!r}, not by {TOOL}; build with that, or remove build and devel"
                 )
 
-    def packages(self) -> tuple[list[Path], list[Finding]]:
-        """Return the folders of the catkin packages in the source space, and problems with their location."""
-        found, findings = [], []
+    def packages(self) -> list[Path]:
+        """Return the folders of the packages in the source space. Raises `CatkinError` if that is a package itself."""
+        found = []
         for each in crawl(self.source):
-            if each.manifest != MANIFEST:
-                message = "this is rosbuild's, which catkin does not build; a package of catkin has a package.xml"
-                findings.append(Finding(message, each.file, is_error=False))
-            elif each.folder == self.source:
+            if each == self.source:
                 message = f"a package in place of the source space: packages are in folders of {self.source}"
-                raise CatkinError(f"{each.file}: {message}")
-            else:
-                found.append(each.folder)
-        return sorted(found), findings
+                raise CatkinError(f"{each / MANIFEST}: {message}")
+            found.append(each)
+        return sorted(found)
 
     def underlays(self, environ: Mapping[str, str]) -> list[Path]:
         """Return the other devel and install spaces in use, in search order."""

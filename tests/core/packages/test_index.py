@@ -456,53 +456,6 @@ def test_built_in_nodes_come_from_entry_points(
         index.find_executable("talk", "talker.py").load()
 
 
-# ---- of the time before catkin ----
-
-
-@pytest.fixture
-def old(tmp_path: Path) -> PackageIndex:
-    """A stack with a package of rosbuild in it."""
-    stack = write(tmp_path / "arms" / "stack.xml", '<stack><version>0.3.0</version><depend stack="legs"/></stack>')
-    write(
-        stack.parent / "elbow" / "manifest.xml",
-        '<package><description brief="x">An\nelbow</description><author>me</author><license>BSD</license>'
-        '<depend package="shoulder"/><depend package="bone"/><export><cpp cflags="-I${prefix}"/></export></package>',
-    )
-    return PackageIndex([tmp_path])
-
-
-def test_packages_and_stacks_of_rosbuild_are_named_as_their_folders(old: PackageIndex) -> None:
-    assert (old.names(), old.stacks()) == (["elbow"], ["arms"])
-    package = old.find("elbow")
-    assert package.is_rosbuild
-    assert (package.depends, package.exec_depends) == (("bone", "shoulder"), ("shoulder", "bone"))
-    assert (package.version, package.description) == ("", "An elbow")
-    assert package.manifest.name == "manifest.xml"
-    assert [(each.tag, each.get("cflags"), each.get("x")) for each in package.exports] == [("cpp", "-I${prefix}", None)]
-    stack = old.find_stack("arms")
-    assert (stack.version, stack.depends, stack.path.name) == ("0.3.0", ("legs",), "arms")
-    with pytest.raises(UnknownPackage, match=r"did you mean arms\?"):
-        old.find_stack("arm")
-
-
-@pytest.mark.parametrize(
-    ("name", "text", "says"),
-    [
-        ("manifest.xml", "<package>", "line 1 is still open"),
-        ("manifest.xml", "<stack/>", "begins with <package>"),
-        ("manifest.xml", "<package><depend/></package>", 'package="..." is missing in <depend>'),
-        ("stack.xml", "<package/>", "begins with <stack>"),
-        ("stack.xml", '<!DOCTYPE a [<!ENTITY b "c">]><stack>&b;</stack>', "may not define or use entities"),
-    ],
-)
-def test_broken_manifests_of_rosbuild_are_told_with_their_line(tmp_path: Path, name: str, text: str, says: str) -> None:
-    write(tmp_path / "old" / name, text)
-    index = PackageIndex([tmp_path])
-    with pytest.raises(DefinitionError, match=says) as caught:
-        index.find_stack("old") if name == "stack.xml" else index.find("old")
-    assert caught.value.line == 1
-
-
 def test_duplicates_are_told_in_the_order_of_the_search(tmp_path: Path) -> None:
     first, second = make(tmp_path / "b" / "twice", "twice"), make(tmp_path / "a" / "deep" / "twice", "twice")
     make(tmp_path / "once", "once")

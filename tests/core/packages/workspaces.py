@@ -10,7 +10,7 @@ TAGS = {
     "beta": "<build_depend>gamma</build_depend>",
     "gamma": "",
     "mixed": "<depend>gamma</depend><exec_depend>beta</exec_depend><depend>alpha</depend>"
-    "<build_depend>old</build_depend><exec_depend>libboost</exec_depend>",
+    "<exec_depend>libboost</exec_depend>",
     "gathering": "<exec_depend>alpha</exec_depend><exec_depend>beta</exec_depend><export><metapackage/></export>",
 }
 PACKAGE = """<?xml version="1.0"?>
@@ -18,23 +18,15 @@ PACKAGE = """<?xml version="1.0"?>
 <maintainer email="me@example.org">m</maintainer><license>BSD</license><buildtool_depend>catkin</buildtool_depend>
 {tags}</package>
 """
-ROSBUILD = (
-    '<package><description brief="x">-</description><author>me</author><license>BSD</license>'
-    '<depend package="{needs}"/><export><cpp cflags="-D{needs}"/></export></package>'
-)
-STACK = '<stack><depend stack="legs"/></stack>'
 
 
 def a_workspace(folder: Path) -> Path:
-    """Packages of both times, a metapackage, a stack, and a package that is not named as its folder."""
+    """Packages, a metapackage, and a package that is not named as its folder."""
     files = {
         f"{name}/package.xml": PACKAGE.format(name=name, format=' format="2"', tags=tags) for name, tags in TAGS.items()
     }
     tags = "<build_depend>gamma</build_depend><run_depend>alpha</run_depend>"
     files["other_folder/package.xml"] = PACKAGE.format(name="renamed", format="", tags=tags)
-    files["old/manifest.xml"] = ROSBUILD.format(needs="alpha")
-    files["arms/stack.xml"] = STACK
-    files["arms/elbow/manifest.xml"] = ROSBUILD.format(needs="old")
     files["alpha/sub/file"] = ""
     for name, text in files.items():
         path = folder / name
