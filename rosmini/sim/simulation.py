@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
 
 import numpy as np
@@ -21,20 +20,9 @@ from rosmini.core.graph.show import show
 from .devices import DifferentialDrive, RangeDevice
 from .dragging import drag
 from .engine.engine import Engine, RobotGone
-from .host import Host, HostState
+from .host import Host
 
 T = TypeVar("T")
-
-
-@dataclass(frozen=True)
-class SimulationState:
-    """The result of `Simulation.save`: everything needed to continue a simulation. It can be pickled."""
-
-    program: str
-    world: str
-    host: HostState
-    own: Any
-    """State of the kind of simulation: the robots of a simulator, the models of Gazebo."""
 
 
 class Simulation(ABC):
@@ -212,50 +200,6 @@ class Simulation(ABC):
             if isinstance(device, DifferentialDrive) and device.robot.name == name:
                 return device.reckoned.pose
         raise RobotGone(f"the first robot in the world {self.engine.world.name!r} has no drive, and no odometry")
-
-    # -- saving --------------------------------------------------------------------------------------------------
-
-    def save(self) -> SimulationState:
-        """Return everything the world continues from: poses, velocities, odometry, random generators and time.
-
-        Saving changes nothing, and the result can be pickled. Messages in transit are not included: subscribers get a
-        step's messages right after the step, so after saving between the two and restoring, they receive those messages
-        as well. Data that a plugin of Gazebo keeps outside a device is not included either.
-        """
-        return self._do(
-            lambda: SimulationState(self.program, self.engine.world.name, self.host.save(), self._own_state())
-        )
-
-    def _own_state(self) -> Any:
-        return None
-
-    def restore(self, state: SimulationState) -> None:
-        """Continue exactly as after `save`, to the last bit: later additions are removed, removed objects come back.
-
-        Time goes back too, and with it /clock; only the simulator's stamps follow the node's clock, which does not go
-        back. Raises `RosminiError` for a state of another program, another world, or other devices.
-        """
-
-        def become() -> None:
-            if not isinstance(state, SimulationState) or state.program != self.program:
-                what = state.program if isinstance(state, SimulationState) else type(state).__name__
-                msg = f"{self.node.name} can only be restored from what its own save() returned, not from a {what}"
-                raise RosminiError(msg)
-            if state.world != self.engine.world.name:
-                world = self.engine.world.name
-                raise RosminiError(f"a state of the world {state.world!r} cannot be restored in the world {world!r}")
-            self._remove_new(state.own)
-            self.engine.restore(state.host.engine)
-            self._bring_back(state.own)
-            self.host.restore(state.host)
-
-        self._do(become)
-
-    def _remove_new(self, own: Any) -> None:  # noqa: B027 - not every simulation can add and remove robots
-        """Remove the robots and models that the saved state does not contain, or that differ there."""
-
-    def _bring_back(self, own: Any) -> None:  # noqa: B027
-        """Restore the devices of the removed robots and models that the engine has again."""
 
     # -- pictures ------------------------------------------------------------------------------------------------
 

@@ -22,6 +22,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from rosmini.core.errors import RosminiError
 from rosmini.core.geometry.poses import Pose
 from rosmini.core.graph import Node
 from rosmini.core.parameters import Parameters, parameter
@@ -29,7 +30,7 @@ from rosmini.msgs import service_class
 
 from .devices.obstacles import ObstacleMarkers
 from .engine.engine import Engine
-from .host import Host
+from .host import Host, HostState
 from .models import RobotModel
 from .models import model as model_called
 from .simulation import Simulation
@@ -71,6 +72,15 @@ class SimulatorParameters(Parameters):
     use_rep_117: bool = parameter(
         True, "write inf for what is too far and -inf for what is too near; else 0.0, as a real LDS-01 does"
     )
+
+
+@dataclass(frozen=True)
+class SimulatorState:
+    """The result of `Simulator.save`: everything needed to continue. It can be pickled."""
+
+    world: str
+    host: HostState
+    robots: tuple[Start, ...]
 
 
 class Simulator(Simulation):
@@ -205,23 +215,52 @@ class Simulator(Simulation):
 
     # -- saving --------------------------------------------------------------------------------------------------
 
-    def _own_state(self) -> tuple[Start, ...]:
-        return tuple(
-            Start(each.name, each.model, each.robot.start, each.namespace, each.tf_prefix)
-            for each in self.robots.values()
-        )
+    def save(self) -> SimulatorState:
+        """Return everything the world continues from: poses, velocities, odometry, random generators and time.
 
-    def _remove_new(self, own: tuple[Start, ...]) -> None:
-        before = {start.name: (start.model, start.namespace, start.tf_prefix) for start in own}
-        for name, robot in list(self.robots.items()):
-            if before.get(name) != (robot.model, robot.namespace, robot.tf_prefix):
-                self._delete(name)
+        Saving changes nothing, and the result can be pickled. Messages in transit are not included: subscribers get a
+        step's messages right after the step, so after saving between the two and restoring, they receive those messages
+        as well.
+        """
 
-    def _bring_back(self, own: tuple[Start, ...]) -> None:
-        for start in own:
-            if start.name not in self.robots:
-                self._bring(start)
-        self.robots = {start.name: self.robots[start.name] for start in own}
+        def saved() -> SimulatorState:
+            starts = tuple(
+                Start(each.name, each.model, each.robot.start, each.namespace, each.tf_prefix)
+                for each in self.robots.values()
+            )
+            return SimulatorState(self.world.name, self.host.save(), starts)
+
+        return self._do(saved)
+
+    def restore(self, state: SimulatorState) -> None:
+        """Continue exactly as after `save`, to the last bit: later additions are removed, removed objects come back.
+
+        Time goes back too, but not the node's clock, from which the stamps come. Raises `RosminiError` for a state of
+        another world or other devices.
+        """
+
+        def become() -> None:
+            if not isinstance(state, SimulatorState):
+                what = type(state).__name__
+                raise RosminiError(
+                    f"{self.node.name} can only be restored from what save() returned, not from a {what}"
+                )
+            if state.world != self.world.name:
+                raise RosminiError(
+                    f"a state of the world {state.world!r} cannot be restored in the world {self.world.name!r}"
+                )
+            before = {start.name: (start.model, start.namespace, start.tf_prefix) for start in state.robots}
+            for name, robot in list(self.robots.items()):
+                if before.get(name) != (robot.model, robot.namespace, robot.tf_prefix):
+                    self._delete(name)
+            self.engine.restore(state.host.engine)
+            for start in state.robots:
+                if start.name not in self.robots:
+                    self._bring(start)
+            self.robots = {start.name: self.robots[start.name] for start in state.robots}
+            self.host.restore(state.host)
+
+        self._do(become)
 
     def remove(self) -> None:
         """Remove all robots: their topics close, and the graph continues. Harmless when repeated."""

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import copy
 import math
 from collections.abc import Iterable, Sequence
 from functools import partial
@@ -79,6 +78,7 @@ class DifferentialDrive(Device):
     """
 
     order = 10.0
+    saved = ("odometry", "reckoned", "_zero", "powered", "_heading")
     sideways = False
     """True if it can also move sideways."""
 
@@ -231,15 +231,6 @@ class DifferentialDrive(Device):
         self.odometry.pose = (0.0, 0.0, 0.0)
         self._zero = self.robot.pose
 
-    def state(self) -> Any:
-        """Return the odometry and the state of the motors."""
-        return copy.copy(self.odometry), self.reckoned, self._zero, self.powered, self._heading
-
-    def restore(self, state: Any) -> None:
-        """Restore what `state` returned."""
-        odometry, self.reckoned, self._zero, self.powered, self._heading = state
-        self.odometry = copy.copy(odometry)
-
     def close(self) -> None:
         """Close the topics."""
         if self._transforms is not None:
@@ -277,15 +268,6 @@ class PlanarMove(DifferentialDrive):
         super().reset_odometry()
         if isinstance(self.robot, HolonomicRobot):
             self._reckoned_from = self.robot.reckoned
-
-    def state(self) -> Any:
-        """Return the odometry and the state of the motors."""
-        return super().state(), self._reckoned_from
-
-    def restore(self, state: Any) -> None:
-        """Restore what `state` returned."""
-        own, self._reckoned_from = state
-        super().restore(own)
 
 
 class OdometryTransforms(Device):

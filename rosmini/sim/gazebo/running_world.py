@@ -9,8 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import ExitStack
-from dataclasses import dataclass, fields, is_dataclass, replace
-from typing import Any
+from dataclasses import replace
 
 from rosmini.core.errors import RosminiError
 from rosmini.core.geometry.poses import compose
@@ -28,40 +27,7 @@ from .errors import GazeboError, SpawnError, UnknownPlugin
 from .model import STILL, GazeboWorld, Model, Sensor, Velocity
 from .physics_properties import PhysicsProperties
 from .plugins import ModelPlugin, Plugin, SensorPlugin, WorldPlugin, plugin_class
-from .wrenches import Wrench, Wrenches
-
-
-@dataclass(frozen=True)
-class ModelState:
-    """The part of a model's state that the engine does not have."""
-
-    sdf: SdfModel
-    start: Pose6
-    namespace: str
-    frames: dict[str, tuple[str, Pose6]]
-    obstacles: tuple[str, ...]
-    fixed: Pose6 | None
-    """Its pose if nothing can push it."""
-
-    @classmethod
-    def of(cls, model: Model) -> ModelState:
-        """Return the current state of a model."""
-        return cls(model.sdf, model.start, model.namespace, dict(model.frames), model.obstacles, model.fixed)
-
-    def spawned_like(self, model: Model) -> bool:
-        """Return True if a model was spawned in the same way as this one."""
-        return all(
-            is_equal(getattr(self, name), getattr(model, name)) for name in ("namespace", "start", "frames", "sdf")
-        )
-
-
-@dataclass(frozen=True)
-class WorldState:
-    """The part of a Gazebo world's state that its host does not have."""
-
-    models: dict[str, ModelState]
-    physics: PhysicsProperties
-    forces: tuple[Wrench, ...]
+from .wrenches import Wrenches
 
 
 class RunningWorld(GazeboWorld):
@@ -175,30 +141,6 @@ class RunningWorld(GazeboWorld):
         self.host.speed = physics.speed
         self.engine.set_surface(gravity=max(0.0, -physics.gravity[2]))
 
-    # -- saving --------------------------------------------------------------------------------------------------
-
-    def state(self) -> WorldState:
-        """Return the world's state without the engine and its devices."""
-        models = {name: ModelState.of(model) for name, model in self.models.items()}
-        return WorldState(models, self.physics, self.wrenches.state())
-
-    def remove_new(self, state: WorldState) -> None:
-        """Delete the models that the state does not contain or that differ there; restore its physics settings."""
-        for name, model in list(self.models.items()):
-            if name not in state.models or not state.models[name].spawned_like(model):
-                self.delete(name)
-        self.set_physics(state.physics)
-
-    def bring_back(self, state: WorldState) -> None:
-        """Restore the plugins and forces of the models in a restored engine."""
-        for name, old in state.models.items():
-            if name not in self.models:
-                self._insert(old.sdf, name, old.start, old.namespace, old.frames, check=False, there=old.obstacles)
-                self._notify("insert", self.models[name])
-            self.models[name].obstacles, self.models[name].fixed = old.obstacles, old.fixed
-        self.models = {name: self.models[name] for name in state.models}
-        self.wrenches.restore(state.forces)
-
     # -- models --------------------------------------------------------------------------------------------------
 
     def spawn(
@@ -227,9 +169,7 @@ class RunningWorld(GazeboWorld):
         frames: Mapping[str, tuple[str, Pose6]] | None = None,
         *,
         check: bool,
-        there: tuple[str, ...] | None = None,
     ) -> Model:
-        """Insert a model; `there` names its obstacles if the engine already has it."""
         self._check_new(name, pose)
         if check and not sdf.static:
             above = lowest(sdf, pose)
@@ -242,9 +182,7 @@ class RunningWorld(GazeboWorld):
                 cls.prepare(body, tag.element, self.node.logwarn)
         sensors = [Sensor(model, each, link) for link, there, _ in placed_links(sdf) for each in there.sensors]
         is_robot = body.drive or sensors or any(getattr(cls, "needs_robot", False) for cls, _ in found)
-        if there is not None:
-            model.body, model.obstacles = body if is_robot else None, there
-        elif is_robot:
+        if is_robot:
             self._add_robot(model, body)
         else:
             self._add_things(model)
@@ -422,16 +360,3 @@ class RunningWorld(GazeboWorld):
             ends.callback(self.host.end)
             for plugin in self._all_plugins():
                 ends.callback(self.node.guarded, plugin.close, what=f"the end of {plugin.name}")
-
-
-def is_equal(a: Any, b: Any) -> bool:
-    """Return True if two descriptions are equal; markup elements are equal only to themselves."""
-    if type(a) is not type(b):
-        return False
-    if is_dataclass(a):
-        return a is b or all(is_equal(getattr(a, each.name), getattr(b, each.name)) for each in fields(a))
-    if isinstance(a, dict):
-        return a.keys() == b.keys() and all(is_equal(value, b[key]) for key, value in a.items())
-    if isinstance(a, (list, tuple)):
-        return len(a) == len(b) and all(map(is_equal, a, b))
-    return bool(a == b)

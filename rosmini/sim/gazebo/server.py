@@ -34,7 +34,7 @@ from .client import GazeboClient
 from .errors import GazeboError, UnknownEntity
 from .model import Model
 from .physics_properties import PhysicsProperties
-from .running_world import RunningWorld, WorldState
+from .running_world import RunningWorld
 from .services import Services, StateTopics
 from .snapshot import Pictured, Snapshot
 from .spawning import spawn_text
@@ -179,16 +179,6 @@ class GazeboServer(Pictured, Simulation):
 
     def _reset(self) -> None:
         self.world.reset_models()
-
-    def _own_state(self) -> WorldState:
-        return self.world.state()
-
-    def _remove_new(self, own: WorldState) -> None:
-        self.world.remove_new(own)
-
-    def _bring_back(self, own: WorldState) -> None:
-        self.world.bring_back(own)
-        self.reconfigure.update_configuration(asdict(self.world.physics))
 
     def client(self) -> GazeboClient:
         """Return a client that shows this server, as a node `gazebo_gui` of the same graph."""

@@ -92,13 +92,3 @@ class Wrenches:
 
     def _is_there(self, model: Model) -> bool:
         return self._world.models.get(model.name) is model
-
-    def state(self) -> tuple[Wrench, ...]:
-        """Return all wrenches that act."""
-        return tuple(wrench for wrench, model, _ in self._acting if self._is_there(model))
-
-    def restore(self, state: tuple[Wrench, ...]) -> None:
-        """Restore what `state` returned."""
-        models = [self._world.model(each.model) for each in state]
-        self._acting = [(each, model, model.weight) for each, model in zip(state, models, strict=True)]
-        self._schedule()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import math
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -94,16 +93,6 @@ class StageBase(DifferentialDrive):
         """Stop. The estimated pose stays the same, as in Stage."""
         self.reckoning.set_velocity(STILL, self.host.engine.now)
 
-    def state(self) -> Any:
-        """Return the odometry and the state of the motors."""
-        return super().state(), copy.copy(self.reckoning)
-
-    def restore(self, state: Any) -> None:
-        """Restore what `state` returned."""
-        own, reckoning = state
-        super().restore(own)
-        self.reckoning = copy.copy(reckoning)
-
 
 class StageTruth(GroundTruth):
     """The topic `base_pose_ground_truth`: pose and velocity of a base in the world's frame, between two steps.
@@ -112,7 +101,6 @@ class StageTruth(GroundTruth):
     """
 
     always = True
-    saved = ("_before",)
 
     def __init__(self, host: Host, name: str, names: Names) -> None:
         what = "base_pose_ground_truth"
@@ -241,14 +229,6 @@ class Watchdog(Device):
             for base in self.bases:
                 if base.reckoning.velocity != STILL:
                     base.go(base.velocity(0.0, 0.0, 0.0))
-
-    def state(self) -> Any:
-        """Return the time of the last command."""
-        return self._fed
-
-    def restore(self, state: Any) -> None:
-        """Restore that time."""
-        self._fed = state
 
 
 class End(Device):

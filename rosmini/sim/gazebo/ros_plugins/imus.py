@@ -20,7 +20,6 @@ by it, which gives a wrong direction unless the robot faces along x; here they a
 
 from __future__ import annotations
 
-import copy
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -140,16 +139,6 @@ class GazeboImu(ImuDevice):
             errors = (self._orientation_deviation * self._rng.standard_normal(4)).tolist()
             orientation = tuple(part + error for part, error in zip(orientation, errors, strict=True))
         return (*orientation, *gyro, *accel)
-
-    def state(self) -> Any:
-        """Return the state, including that of the noise."""
-        return super().state(), copy.deepcopy(self._rng)
-
-    def restore(self, state: Any) -> None:
-        """Restore what `state` returned."""
-        own, rng = state
-        super().restore(own)
-        self._rng = copy.deepcopy(rng)
 
 
 def turned(rpy: Sequence[float]) -> Rigid:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import math
 from dataclasses import dataclass
 from typing import Any
@@ -141,9 +140,3 @@ class _Truth(Sensor):
         if self._deviation:
             speeds += self._rng.standard_normal(6) * self._deviation
         return (x, y, z, *quaternion(pose[3], pose[4], pose[5]), *speeds.tolist())
-
-    def state(self) -> Any:
-        return copy.deepcopy(self._rng)
-
-    def restore(self, state: Any) -> None:
-        self._rng = copy.deepcopy(state)
