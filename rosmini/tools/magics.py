@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Any
 from rosmini.core.errors import UsageError, nearest
 from rosmini.core.graph.notebook import mark_as_shown
 
-from . import failing
 from .completion import candidates
 from .main import COMMANDS, Plugged, chosen
 
@@ -58,7 +57,6 @@ def register(
             shell.set_hook("complete_command", _complete, str_key=f"%{name}")
     for name in SLIPS:
         shell.register_magic_function(no_var_expand(_slip(name)), "line", name)
-    failing.register(shell)
 
 
 def _slip(name: str) -> Callable[[str], None]:

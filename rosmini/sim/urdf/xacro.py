@@ -11,7 +11,7 @@ import re
 import sys
 import threading
 import xml.dom.minidom
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from os import PathLike, fspath
 from pathlib import Path
@@ -20,7 +20,7 @@ from typing import Any
 from rosmini.core.errors import RosminiError, nearest
 from rosmini.core.expressions import ExpressionError, NotAllowed
 from rosmini.core.files import exists
-from rosmini.core.markup import Element, parse, parse_file
+from rosmini.core.markup import parse, parse_file
 from rosmini.core.packages import SCHEME, PackageIndex
 
 from .confined import Confined
@@ -97,8 +97,7 @@ def _process(file: Path, mappings: dict[str, str], index: PackageIndex, *, confi
     import xacro
     from xacro import substitution_args
 
-    known: list[str] = []
-    with _patched_xacro(xacro, substitution_args, file if confined else None, index, known):
+    with _patched_xacro(xacro, substitution_args, file if confined else None, index):
         try:
             document: xml.dom.minidom.Document = xacro.process_file(str(file), mappings=dict(mappings))
         # Expressions are Python: whatever they raise, the description is invalid.
@@ -108,23 +107,16 @@ def _process(file: Path, mappings: dict[str, str], index: PackageIndex, *, confi
                 if cause is error:
                     raise
                 raise cause from error
-            stack = [name for name in reversed(xacro.filestack or []) if name and exists(name)]
-            known = [name for name in known if exists(name)]
-            where = stack[0] if stack else str(file)
-            message = _message(error, mappings, known)
-            line = _line(error, [*stack, *known])
+            where = next((name for name in reversed(xacro.filestack or []) if name and exists(name)), str(file))
             macros = [each.body.getAttribute("name") for each in reversed(xacro.macrostack or [])]
-            line = line or _call(message, macros, known)
             told = [*macros[:MAX_MACROS], *(["..."] if len(macros) > MAX_MACROS else [])]
             inside = f" (in the macro {', called by '.join(told)})" if macros else ""
-            raise UrdfError(message + inside, *(line or (where, None))) from error
+            raise UrdfError(_message(error, mappings) + inside, where) from error
     return document
 
 
 @contextmanager
-def _patched_xacro(
-    xacro: Any, substitution: Any, confined: Path | None, index: PackageIndex, known: list[str]
-) -> Iterator[None]:
+def _patched_xacro(xacro: Any, substitution: Any, confined: Path | None, index: PackageIndex) -> Iterator[None]:
     """Make xacro use our package index, our file reading and our limits; restore its globals afterwards.
 
     `confined` is the expanded file, or None for no limits.
@@ -145,7 +137,6 @@ def _patched_xacro(
             xacro.filestack.pop()
             missing = OSError(f"{filename}: cannot be read: No such file or directory")
             raise xacro.XacroException(exc=missing)
-        known.append(filename)
         if limits is not None:
             limits.opened(filename)
         parse_file(filename, UrdfError)
@@ -209,14 +200,9 @@ def _is_refused(error: BaseException | None) -> bool:
     return False
 
 
-def _message(error: Exception, mappings: Mapping[str, str], files: Sequence[str]) -> str:
+def _message(error: Exception, mappings: Mapping[str, str]) -> str:
     """Return xacro's message, with advice."""
     said = " ".join(_ends(str(error)).split()) or repr(error)
-    unknown = re.search(r"unknown macro name: xacro:(\S+)", said)
-    if unknown:
-        there = re.findall(r"<(?:xacro:)?macro[^>]*\bname=[\"']([^\"']+)", _text(files))
-        hint = nearest(unknown[1], there)
-        return f"there is no macro xacro:{unknown[1]}{f'; {hint}' if hint else ''}"
     argument = re.search(r"Undefined substitution argument (\S+)", said)
     if argument:
         hint = nearest(argument[1], mappings)
@@ -237,64 +223,6 @@ def _message(error: Exception, mappings: Mapping[str, str], files: Sequence[str]
 def _ends(text: str) -> str:
     """Return the beginning and the end of a text, because the cost of the patterns is quadratic in its length."""
     return text if len(text) <= 2 * SHOWN else f"{text[:SHOWN]} ... {text[-SHOWN:]}"
-
-
-def _text(files: Sequence[str]) -> str:
-    return "\n".join(Path(name).read_text(encoding="utf-8", errors="replace") for name in files)
-
-
-def _line(error: Exception, files: Sequence[str]) -> tuple[str, int] | None:
-    """Return file and line of xacro's error: it contains neither, but the text it quotes is in one of the files."""
-    said = _ends(str(error))
-    patterns = (
-        (r"when evaluating expression '(.+)'", "{}"),
-        (r"unknown macro name: (\S+)", "<{}"),
-        (r"Undefined substitution argument (\S+)", "$(arg {})"),
-        (r"there is no package '(\S+)'", "$(find {})"),
-        (r'Undefined block "(\S+)"', "{}"),
-        (r"No such file or directory: (\S+)", "{}"),
-        (r"([^/\s]+): cannot be read", "/{}"),
-        (r"Unknown substitution command \[(.+?)\]", "$({}"),
-        (r"accepts exactly one argument \[(.+?)\]", "$({}"),
-        (r"invalid expression: (.+)", "{}"),
-    )
-    unbound = re.search(r"unbound prefix: line (\d+)", said)
-    if unbound:
-        return files[-1], int(unbound[1])
-    lacking = re.search(r"(xacro:\w+): missing attribute '(\w+)'", said)
-    if lacking:
-        return _element(files, lacking[1], lambda found: lacking[2] not in found.attributes)
-    for pattern, wanted in patterns:
-        found = re.search(pattern, said)
-        if found:
-            text = wanted.format(found[1])
-            for name in files:
-                for number, line in enumerate(_text([name]).splitlines(), start=1):
-                    if text in line:
-                        return name, number
-    return None
-
-
-def _call(message: str, macros: Sequence[str], files: Sequence[str]) -> tuple[str, int] | None:
-    """Return file and line of a macro call that lacks a parameter, or that has an unknown one."""
-    lacking = re.search(r"Undefined parameters \[(.+?)\]", message)
-    wrong = re.search(r'Invalid parameter "(.+?)"', message)
-    if not macros or not (lacking or wrong):
-        return None
-    tag = f"xacro:{macros[0]}"
-    if wrong:
-        return _element(files, tag, lambda found: wrong[1] in found.attributes)
-    names = lacking[1].split(",") if lacking else []
-    return _element(files, tag, lambda found: not any(name in found.attributes for name in names))
-
-
-def _element(files: Sequence[str], tag: str, wanted: Callable[[Element], bool]) -> tuple[str, int] | None:
-    """Return file and line of the first matching element of this tag."""
-    for name in dict.fromkeys(files):
-        for found in parse_file(name, UrdfError).walk():
-            if found.tag == tag and wanted(found):
-                return name, found.line
-    return None
 
 
 def main(arguments: Sequence[str]) -> int:
