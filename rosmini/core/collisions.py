@@ -8,8 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterable
 
-__all__ = ["MAX_COLLISIONS", "collide"]
-
 MAX_COLLISIONS = 64
 """Maximum number of different keys with the same hash in one set or dictionary."""
 

@@ -15,42 +15,6 @@ if TYPE_CHECKING:
     from pathlib import Path
     from types import TracebackType
 
-__all__ = [
-    "CallbackError",
-    "CommandError",
-    "DefinitionError",
-    "DeserializationError",
-    "DuplicateNode",
-    "GraphEnded",
-    "IllegalName",
-    "InvalidRate",
-    "MasterUnreachable",
-    "MessageException",
-    "ParameterError",
-    "ParameterNotSet",
-    "ParameterOverflow",
-    "ParameterTypeError",
-    "ROSException",
-    "ROSInitException",
-    "ROSInternalException",
-    "ROSInterruptException",
-    "ROSSerializationException",
-    "ROSTimeMovedBackwardsException",
-    "RosminiError",
-    "ScriptError",
-    "SerializationError",
-    "ServiceException",
-    "TransportException",
-    "TransportInitError",
-    "TransportTerminated",
-    "TypeMismatch",
-    "UnknownPackage",
-    "UnknownType",
-    "UsageError",
-    "nearest",
-    "shown",
-]
-
 
 class RosminiError(Exception):
     """Base class of all errors in rosmini."""

@@ -10,8 +10,6 @@ import errno
 import os
 import stat
 
-__all__ = ["MAX_BYTES", "check", "exists", "is_file", "names_in", "path_of", "read"]
-
 MAX_BYTES = 64_000_000
 """Maximum size of a file that is read at once [bytes]."""
 

@@ -14,8 +14,6 @@ from rosmini.core.errors import RosminiError
 if TYPE_CHECKING:
     from PIL.Image import Image
 
-__all__ = ["MAX_PIXELS", "ImageError", "opened", "strips"]
-
 MAX_PIXELS = 100_000_000
 """Maximum number of pixels: a map of 10,000 x 10,000 cells."""
 

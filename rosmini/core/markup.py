@@ -24,8 +24,6 @@ from rosmini.core.files import read
 if TYPE_CHECKING:
     from xml.sax.xmlreader import AttributesImpl, Locator
 
-__all__ = ["MAX_DEPTH", "MAX_LENGTH_M", "MAX_MASS_KG", "Element", "MarkupError", "parse", "parse_file"]
-
 MAX_LENGTH_M = 1e9
 """Maximum of a length [m] or an angle; larger ones are mistakes and cause overflows."""
 

@@ -15,25 +15,6 @@ from rosmini.core.errors import IllegalName, ROSInitException, shown
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-__all__ = [
-    "ROS_RELEASE",
-    "AnonymousNames",
-    "Remappings",
-    "canonicalize",
-    "check_base_name",
-    "check_name",
-    "is_global",
-    "is_legal_base_name",
-    "is_legal_name",
-    "is_private",
-    "is_remapping",
-    "join",
-    "namespace",
-    "resolve",
-    "resolve_for",
-    "split_resource_name",
-]
-
 ROS_RELEASE = {"ROS_VERSION": "1", "ROS_DISTRO": "noetic", "ROS_PYTHON_VERSION": "3"}
 """Environment variables that identify the ROS release; conditions in manifests (REP 149) refer to them too."""
 

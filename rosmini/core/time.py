@@ -12,8 +12,6 @@ from __future__ import annotations
 from numbers import Integral, Real
 from typing import Any, ClassVar, Self, overload
 
-__all__ = ["Duration", "TVal", "Time"]
-
 NSECS_PER_SEC = 1_000_000_000
 
 

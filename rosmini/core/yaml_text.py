@@ -17,8 +17,6 @@ from yaml.resolver import Resolver
 
 from rosmini.core.collisions import collide
 
-__all__ = ["Loader", "children", "documents", "line_of"]
-
 MAX_VALUES = 100_000
 """Maximum number of values in a document, with aliases expanded."""
 

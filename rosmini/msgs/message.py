@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 
     from .definition import MessageSpec
 
-__all__ = ["Message", "make_message_class"]
-
 
 class _Compiled:
     """A function of a message class that is generated on first use."""

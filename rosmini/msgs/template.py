@@ -29,8 +29,6 @@ if TYPE_CHECKING:
 
     from .message import Message
 
-__all__ = ["template"]
-
 
 def template(message: Message, *varying: str) -> Callable[..., Any]:
     """Return a function that makes frozen copies of `message`, as it is now, with new values in the fields `varying`.

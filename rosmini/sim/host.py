@@ -37,8 +37,6 @@ Stamp = tuple[int, int]
 
 D = TypeVar("D", bound="Device")
 
-__all__ = ["IDLE_S", "LAG_S", "SECOND", "Device", "Host", "HostState", "Stamp"]
-
 
 class Device:
     """An action that happens `rate` times a second of simulated time. Derive from it, and add it with `host.add`.
@@ -136,11 +134,6 @@ class Host:
         self.on_time: list[Callable[[], object]] = []
         """Called after time was paused, resumed, stepped or set."""
         node.on_shutdown(self.end)
-
-    def __repr__(self) -> str:
-        count = len(self._devices)
-        devices = f"{count} device{'s' * (count != 1)}{', paused' * self._paused}"
-        return f"<Host {self.node.name}: {self.now:.3f} s, {devices}>"
 
     # -- time ----------------------------------------------------------------------------------------------------
 

@@ -158,10 +158,6 @@ class TurtleBot:
             reset=self.topic("reset"),
         )
 
-    def __repr__(self) -> str:
-        x, y, _ = self.robot.pose
-        return f"<{self.model.title or self.model.name} {self.name} at ({x:.2f}, {y:.2f})>"
-
     def _add(self, device: D) -> D:
         self.devices.append(self.host.add(device))
         return device

@@ -12,8 +12,6 @@ from rosmini.viz.metrics import text_width
 from rosmini.viz.svg import document, element
 from rosmini.viz.view import Picture, ViewError
 
-__all__ = ["byte_map"]
-
 ACROSS = 16
 """Number of bytes in a row."""
 

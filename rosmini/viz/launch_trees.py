@@ -10,8 +10,6 @@ from rosmini.viz.outline import HEAD, KIND, NAME, VALUE, Row, outline
 from rosmini.viz.view import Picture
 from rosmini.viz.words import plural
 
-__all__ = ["launch_tree"]
-
 MAX_LENGTH = 44
 """Maximum number of characters of a value that are shown."""
 

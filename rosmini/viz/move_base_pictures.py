@@ -16,8 +16,6 @@ from rosmini.viz.rqt.graph_state import GraphState, graph_state
 from rosmini.viz.svg import element
 from rosmini.viz.view import Picture
 
-__all__ = ["move_base_picture"]
-
 COLOURS = [
     "ink", "muted", "line", "label", "node-fill", "node-line", "topic-fill", "topic-line", "group-fill", "group-line",
 ]  # fmt: skip

@@ -17,8 +17,6 @@ from rosmini.viz.svg import element
 from rosmini.viz.view import Picture, ViewError
 from rosmini.viz.words import plural
 
-__all__ = ["package_graph", "package_tree", "workspace_tree"]
-
 MEANINGS = {
     "CMakeLists.txt": "what is built, and how",
     "action": "definitions of actions",

@@ -10,8 +10,6 @@ from rosmini.viz.outline import HEAD, KIND, NAME, VALUE, Row, outline
 from rosmini.viz.view import Picture, ViewError
 from rosmini.viz.words import plural
 
-__all__ = ["parameter_tree"]
-
 ROSCORE = ("/rosdistro", "/roslaunch", "/rosversion", "/run_id")
 """Parameters that roscore and roslaunch set themselves."""
 

@@ -18,8 +18,6 @@ from rosmini.viz.metrics import text_width
 from rosmini.viz.svg import element
 from rosmini.viz.view import Picture, ViewError
 
-__all__ = ["Transition", "action_states", "state_machine"]
-
 Transition = tuple[str, str, str]
 """(from, event, to)"""
 

@@ -12,8 +12,6 @@ from rosmini.viz.rounding import fixed, snap
 from rosmini.viz.style import LABEL_SIZE, LIGHT
 from rosmini.viz.view import Picture, ViewError, matplotlib_picture
 
-__all__ = ["Span", "spans_of", "timeline"]
-
 COLOURS = ("blue", "green", "orange", "purple", "vermilion")
 LEFT, RIGHT, BOTTOM, ROW, LINE = 118.0, 24.0, 42.0, 34.0, 16.0
 """Margins around the plot, and the height of a row and of a line of text [px]."""

@@ -12,8 +12,6 @@ from rosmini.viz.metrics import text_width
 from rosmini.viz.svg import document, element
 from rosmini.viz.view import Picture
 
-__all__ = ["why_picture"]
-
 COLOURS = ["page", "ink", "line", "muted", "node-fill", "node-line"]
 GAP = 30.0
 """Space between two boxes [px]."""

@@ -160,8 +160,7 @@ def test_a_robot_comes_while_the_others_drive(graph):
     ears = Ears(graph, "", "late")
     ears.command("", 0.1)
     graph.run(1.0)
-    late = simulator.spawn("late", pose=(3.0, 0.0, 1.0))
-    assert repr(late) == "<TurtleBot3 Burger late at (3.00, 0.00)>"
+    simulator.spawn("late", pose=(3.0, 0.0, 1.0))
     assert repr(simulator).endswith("and 1 more in empty>")
     graph.run(1.0)
     assert len(ears.heard["late/odom"]) >= 29

@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 
     from rosmini.core.graph import Node
 
-__all__ = ["ActionClient", "ClientGoalHandle"]
-
 POLL_NS = 10_000_000
 MAX_POLLS = 100
 """Interval [ns] and maximum number of the checks whether a server counts a client among its subscribers."""
@@ -62,9 +60,6 @@ class ClientGoalHandle:
     def id(self) -> str:
         """The goal's id."""
         return str(self.action_goal.goal_id.id)
-
-    def __repr__(self) -> str:
-        return f"<goal {self.id}: {self.machine.state.name}>"
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, ClientGoalHandle) and self.id == other.id
@@ -195,9 +190,6 @@ class ActionClient:
         self._status = hear(f"{ns}/status", statuses, self._hear, on_disconnect=self._disconnected)
         self._result = hear(f"{ns}/result", types.action_result, self._finish)
         self._feedback = hear(f"{ns}/feedback", types.action_feedback, self._feed)
-
-    def __repr__(self) -> str:
-        return f"<{type(self).__name__} of {self.ns} in {self.node.name}>"
 
     def stop(self) -> None:
         """Unregister from the five topics, and stop tracking all goals."""

@@ -19,8 +19,6 @@ from .states import CommState, IllegalTransition, Status
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["CANCELLABLE", "CLIENT_TRANSITIONS", "ClientMachine", "path"]
-
 _LETTERS = {
     "P": CommState.PENDING,
     "A": CommState.ACTIVE,

@@ -101,9 +101,6 @@ class ActionServer:
         if auto_start:
             self.start()
 
-    def __repr__(self) -> str:
-        return f"<{type(self).__name__} of {self.ns} in {self.node.name}>"
-
     def register_goal_callback(self, cb: Callable[[ServerGoalHandle], object]) -> None:
         """Pass new goals to ``cb`` from now on."""
         self.goal_callback = cb

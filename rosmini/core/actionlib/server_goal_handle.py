@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from .server import ActionServer
     from .spec import StatusTracker
 
-__all__ = ["SERVER_TRANSITIONS", "GoalEvent", "ServerGoalHandle", "next_status"]
-
 
 class GoalEvent(Enum):
     """Events in the life of a goal; the values are the methods of a server's goal handle."""
@@ -97,9 +95,6 @@ class ServerGoalHandle:
     def id(self) -> str:
         """The goal's id."""
         return str(self.status.goal_id.id)
-
-    def __repr__(self) -> str:
-        return f"<goal {self.id}: {self.state.name}>" if self.goal is not None else "<no goal>"
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, ServerGoalHandle) or self.goal is None or other.goal is None:

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node, Waiter
     from rosmini.core.time import Time
 
-__all__ = ["SimpleActionClient"]
-
 
 class SimpleActionClient:
     """Sends goals and tracks the latest.
@@ -35,9 +33,6 @@ class SimpleActionClient:
         self._active_cb: Callable[[], object] | None = None
         self._feedback_cb: Callable[[Any], object] | None = None
         self._waiting: list[Waiter] = []
-
-    def __repr__(self) -> str:
-        return f"<{type(self).__name__} of {self.action_client.ns} in {self.node.name}>"
 
     def wait_for_server(self, timeout: Timeout = None) -> bool:
         """Block until a server is running and all five topics are connected.

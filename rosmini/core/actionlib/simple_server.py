@@ -15,8 +15,6 @@ if TYPE_CHECKING:
 
     from rosmini.core.graph import Node
 
-__all__ = ["SimpleActionServer"]
-
 PREEMPTED_TEXT = "This goal was canceled because another goal was received by the simple action server"
 """Text for a goal that the server cancels itself, as in the original."""
 
@@ -73,9 +71,6 @@ class SimpleActionServer:
         self._lane = node.spawn(f"{node.name} execute {self.action_server.ns}")
         if auto_start:
             self.start()
-
-    def __repr__(self) -> str:
-        return f"<{type(self).__name__} of {self.action_server.ns} in {self.node.name}>"
 
     def start(self) -> None:
         """Open the five topics, if ``auto_start`` is False."""

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
     from rosmini.core.graph import Node, Waiter
 
-__all__ = ["ActionTypes", "GoalIDGenerator", "StatusTracker", "Timeout", "numbers_of", "seconds_of", "wait_on"]
-
 
 class ActionTypes(NamedTuple):
     """The message classes behind an action class such as ``FibonacciAction``."""

@@ -10,8 +10,6 @@ from enum import IntEnum
 
 from rosmini.core.errors import RosminiError
 
-__all__ = ["ActionException", "CommState", "IllegalTransition", "SimpleGoalState", "Status", "TerminalState"]
-
 
 class ActionException(RosminiError):
     """An action client or server was used in an unsupported way; actionlib's name."""

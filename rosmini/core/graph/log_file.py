@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import TextIO
 
-__all__ = ["LogFile", "log_folder"]
-
 VARIABLE = "ROS_LOG_DIR"
 LEVEL_NAMES = {1: "DEBUG", 2: "INFO", 4: "WARNING", 8: "ERROR", 16: "CRITICAL"}
 """Python's names of the levels, which rospy writes to files."""

@@ -35,8 +35,6 @@ if TYPE_CHECKING:
 
     Check = Callable[[Any, str], Any]
 
-__all__ = ["Master"]
-
 Triple = list[Any]
 P = ParamSpec("P")
 

@@ -8,8 +8,6 @@ from typing import Any
 from rosmini.core.errors import ParameterError
 from rosmini.core.names import canonicalize, is_global, is_private, join
 
-__all__ = ["ParameterTree", "Update", "wire_copy"]
-
 Tree = dict[str, Any]
 Update = tuple[str, str, Any]
 """The subscribed key, and the key and value to send to its subscribers."""

@@ -42,9 +42,6 @@ class StampedQueue(MutableMapping[Time, Any]):
     def __len__(self) -> int:
         return len(self.kept)
 
-    def __repr__(self) -> str:
-        return repr(dict(self))
-
 
 class TimeSynchronizer(StampingFilter):
     """Calls its callbacks with one message of each of the filters ``fs``, all with the same stamp.

@@ -61,9 +61,6 @@ class PackageIndex:
     def __contains__(self, name: object) -> bool:
         return name in self._folders()
 
-    def __repr__(self) -> str:
-        return f"PackageIndex([{', '.join(repr(str(path)) for path in self.paths)}])"
-
     def refresh(self) -> None:
         """Discard the results of the search; the next query searches again."""
         self._found = None

@@ -25,9 +25,6 @@ class Table(dict[str, Any]):
         """Number of messages."""
         return len(self[TIME]) if TIME in self else 0
 
-    def __repr__(self) -> str:
-        return f"<Table of {self.rows} messages with the columns {', '.join(self)}>"
-
 
 def table(cls: Any, messages: Iterable[tuple[str, Any, TVal]]) -> Table:
     """Return messages of one class, as yielded by `Bag.read_messages`, as columns.

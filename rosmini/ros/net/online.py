@@ -116,10 +116,6 @@ class Online:
             self._go_on()
         self._print_notes()
 
-    def __repr__(self) -> str:
-        how = "joined the Master at" if self.joined else "serves its Master at"
-        return f"<online: {how} {self.graph.master_uri}>"
-
     # -- going online --------------------------------------------------------------------------------------------
 
     def _find_master(self) -> None:

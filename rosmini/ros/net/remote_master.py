@@ -38,9 +38,6 @@ class RemoteMaster(MasterPort):
         self._client = client
         self._watch = watch
 
-    def __repr__(self) -> str:
-        return f"<the Master at {self.uri}>"
-
     def call(self, method: str, caller_id: str, *arguments: Any) -> Triple:
         """Return the Master's answer: [code, status, value].
 

@@ -55,9 +55,6 @@ class _Service:
         self.response_class = service_class._response_class
         self.uri: str | None = None
 
-    def __repr__(self) -> str:
-        return f"<rospy.{type(self).__name__} {self.resolved_name} [{self.service_class._type}]>"
-
 
 class Service(_Service):
     """Offers a service: ``handler(request)`` returns the response, or the values of its fields.

@@ -96,9 +96,6 @@ class Topic(ABC):
         self._handle: Any = None
         self._unregistered = False
 
-    def __repr__(self) -> str:
-        return f"<rospy.{type(self).__name__} {self.resolved_name} [{self.type}]>"
-
     def _begin(self) -> None:
         """Register with the node now, or as soon as there is one."""
         node = current_node()

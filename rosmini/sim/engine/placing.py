@@ -9,8 +9,6 @@ from rosmini.core.geometry.poses import Pose
 from rosmini.sim.models import RobotModel
 from rosmini.sim.world import World, WorldError
 
-__all__ = ["free_pose"]
-
 
 def free_pose(
     world: World,

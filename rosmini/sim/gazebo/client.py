@@ -69,9 +69,6 @@ class GazeboClient(Pictured):
         self.master.poses.listeners.remove(self._moved)
         self.master.statistics.listeners.remove(self._counted)
 
-    def __repr__(self) -> str:
-        return f"<GazeboClient {self.node.name}: {self.text}>"
-
     def _moved(self, poses: Poses) -> None:
         self._lane.post(partial(setattr, self, "_poses", poses))  # as a message, it arrives after the step
 

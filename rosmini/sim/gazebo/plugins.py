@@ -57,9 +57,6 @@ class Plugin:
         """The tag's name, after the name of its owner."""
         self._endings: list[Callable[[], object]] = []
 
-    def __repr__(self) -> str:
-        return f"<{type(self).__name__} {self.name}>"
-
     def every(self, rate: float, callback: Callable[[float], object]) -> None:
         """Call `callback(now)` at a rate [Hz] of the world's time, which is `now` [s], until the plugin is closed."""
         name = f"{self.name}/update{len(self._endings) or ''}"

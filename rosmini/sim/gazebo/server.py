@@ -124,9 +124,6 @@ class GazeboServer(Pictured, Simulation):
         if options.verbose:
             node.loginfo(f"{self.world!r}: {', '.join(self.world.models) or 'no models'}")
 
-    def __repr__(self) -> str:
-        return f"<GazeboServer {self.node.name}: {self.world!r}>"
-
     # -- from Python ---------------------------------------------------------------------------------------------
 
     def spawn(

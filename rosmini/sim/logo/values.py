@@ -84,9 +84,6 @@ class LogoList:
     def __iter__(self) -> Iterator[Value]:
         return iter(self.items)
 
-    def __repr__(self) -> str:
-        return show(self)
-
 
 Value: TypeAlias = str | int | float | LogoList
 

@@ -70,9 +70,6 @@ class RobotStatePublisher:
             node.timer(period, lambda _: self._send_fixed())
         node.subscriber("joint_states", message_class("sensor_msgs/JointState"), self._heard, queue_size=1, numpy=False)
 
-    def __repr__(self) -> str:
-        return f"<RobotStatePublisher {self.node.name} of {self.robot.name}>"
-
     def show(self, **options: Any) -> Any:
         """Return a picture of the robot's links and joints.
 

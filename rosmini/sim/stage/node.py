@@ -152,9 +152,6 @@ class Stageros(Simulation):
         self._service = node.service("reset_positions", service_class("std_srvs/Empty"), self._reset_positions)
         self.host.unpause()  # only now, because a kernel may have been compiled meanwhile
 
-    def __repr__(self) -> str:
-        return f"<Stageros {self.node.name}: {_count(len(self.robots), 'robot')} in {self.file.name}>"
-
     def _bring(self, *, by_model: bool) -> None:
         alone = len(self.file.robots) == 1
         found = []

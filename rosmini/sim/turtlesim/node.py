@@ -88,9 +88,6 @@ class TurtleSim:
         if has_own_process(node.graph):
             show("turtle_window", self)
 
-    def __repr__(self) -> str:
-        return f"<TurtleSim {self.node.name}: {', '.join(self.frame.turtles) or 'no turtles'}>"
-
     @property
     def turtles(self) -> dict[str, Turtle]:
         """The turtles by name."""

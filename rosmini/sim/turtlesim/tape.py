@@ -87,10 +87,6 @@ class Tape:
         self._open: dict[str, Track] = {}
         self.note(start_s, frame)
 
-    def __repr__(self) -> str:
-        seconds = self.end_s - self.start_s
-        return f"<Tape of {self.name}: {seconds:.2f} s, {len(self.tracks)} tracks{', full' * self.is_full}>"
-
     def stop(self) -> None:
         """Stop recording."""
         self.is_running = False

@@ -27,8 +27,6 @@ if TYPE_CHECKING:
 
     from .parts import Part
 
-__all__ = ["LogTable", "rqt_console"]
-
 Column = Literal["stamp", "severity", "node", "message", "location", "topics"]
 COLUMNS: tuple[Column, ...] = ("stamp", "severity", "node", "message", "location")
 

@@ -16,8 +16,6 @@ from rosmini.viz.meshcat.links import lathe, surfaces_of
 
 from .primitives import Floats, Lines, Mesh
 
-__all__ = ["arrow", "axes", "ball", "box", "cone", "cylinder", "flat_arrow", "outline", "surface_mesh"]
-
 RED, GREEN, BLUE = (np.array(colour) for colour in ((1.0, 0, 0, 1), (0, 1.0, 0, 1), (0, 0, 1.0, 1)))
 """The colours of axes: x, y, z."""
 

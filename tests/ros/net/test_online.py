@@ -87,8 +87,7 @@ def test_a_graph_serves_its_master_and_others_talk_to_its_nodes(
 ) -> None:
     pair = Pair(graph)
     before = pair.talker.uri
-    online = graph.online(environ=environ)
-    assert repr(online) == f"<online: serves its Master at {environ['ROS_MASTER_URI']}/>"
+    graph.online(environ=environ)
     assert pair.talker.uri.startswith("http://127.0.0.1:")
     assert pair.still_connected()
     heard: list[str] = []

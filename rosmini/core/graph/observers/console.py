@@ -11,8 +11,6 @@ if TYPE_CHECKING:
     from rosmini.core.graph.graph import Graph
     from rosmini.core.graph.node import Node
 
-__all__ = ["Console"]
-
 
 class Console:
     """Collects the messages on ``/rosout_agg`` from now on; made by ``graph.console()``.

@@ -139,6 +139,3 @@ def _finite(triangles: Floats, file: Path) -> Floats:
     if (np.abs(triangles) > MAX_LENGTH_M).any():
         raise MeshError(f"a corner is further away than {MAX_LENGTH_M:g} m", file)
     return triangles
-
-
-__all__ = ["MeshError", "read"]
