@@ -8,12 +8,10 @@ next: :func:`nearest` writes the "did you mean" part, :func:`shown` formats the 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-    from pathlib import Path
-    from types import TracebackType
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from types import TracebackType
+from typing import Any
 
 
 class RosminiError(Exception):

@@ -15,14 +15,12 @@ import xml.sax.handler
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from os import PathLike, fspath
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from xml.sax.saxutils import escape, quoteattr
+from xml.sax.xmlreader import AttributesImpl, Locator
 
 from rosmini.core.errors import DefinitionError, nearest, shown
 from rosmini.core.files import read
-
-if TYPE_CHECKING:
-    from xml.sax.xmlreader import AttributesImpl, Locator
 
 MAX_LENGTH_M = 1e9
 """Maximum of a length [m] or an angle; larger ones are mistakes and cause overflows."""

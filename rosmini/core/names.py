@@ -8,12 +8,10 @@ A *package resource name* is ``package/Type``.
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Mapping
+from typing import Any
 
 from rosmini.core.errors import IllegalName, ROSInitException, shown
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
 
 ROS_RELEASE = {"ROS_VERSION": "1", "ROS_DISTRO": "noetic", "ROS_PYTHON_VERSION": "3"}
 """Environment variables that identify the ROS release; conditions in manifests (REP 149) refer to them too."""

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any
 
 from rosmini.core.errors import UnknownPackage, UnknownType, nearest
 
-from .definition import BUILTIN_TYPES, parse_message, parse_service, split_action
+from .definition import BUILTIN_TYPES, MessageSpec, parse_message, parse_service, split_action
 from .fingerprint import full_text, message_md5, service_md5
 from .limits import measure
-from .message import make_message_class
+from .message import Message, make_message_class
 from .registry import MODULE_PREFIX, make_service_class, registry
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from .definition import MessageSpec
-    from .message import Message
 
 
 def define_message(name: str, text: str) -> type[Any]:

@@ -12,13 +12,10 @@ from __future__ import annotations
 import ast
 import keyword
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from rosmini.core.errors import DefinitionError, nearest, shown
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 INTEGER_RANGES: dict[str, tuple[int, int]] = {
     **{f"int{bits}": (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) for bits in (8, 16, 32, 64)},

@@ -8,20 +8,17 @@ from __future__ import annotations
 
 import re
 import sys
+from collections.abc import Sequence
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import SOURCE_SUFFIXES, FileFinder, ModuleSpec, PathFinder, SourceFileLoader
-from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from types import CodeType, ModuleType
+from typing import Any
 
 from rosmini.core.errors import UnknownPackage, UnknownType, nearest
 
 from .registry import MODULE_PREFIX, registry
 from .sources import PackageSource
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-    from pathlib import Path
-    from types import CodeType
 
 _KINDS = ("msg", "srv", "action")
 

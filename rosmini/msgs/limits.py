@@ -7,15 +7,10 @@ sums, classes and default values cannot take more time or memory than they allow
 from __future__ import annotations
 
 import struct
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from .definition import BYTES, FORMATS
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from .definition import Field, MessageSpec
+from .definition import BYTES, FORMATS, Field, MessageSpec
 
 MAX_DEPTH = 64
 """Maximum nesting depth of messages."""

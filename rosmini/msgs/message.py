@@ -8,20 +8,16 @@ at full speed, and then turns them into instances of the upper, public class (``
 from __future__ import annotations
 
 import struct
+from collections.abc import Callable, Sequence
+from io import BytesIO
+from types import ModuleType
 from typing import TYPE_CHECKING, Any, Self
 
 from rosmini.core.errors import DeserializationError, SerializationError, nearest
 
 from .contract import MessageContract
-from .definition import BYTES, NUMBERS
+from .definition import BYTES, NUMBERS, MessageSpec
 from .limits import measure
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-    from io import BytesIO
-    from types import ModuleType
-
-    from .definition import MessageSpec
 
 
 class _Compiled:

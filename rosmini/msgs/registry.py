@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from rosmini.core.errors import UnknownPackage, UnknownType, nearest, shown
 
@@ -20,10 +20,7 @@ from .definition import (
 from .fingerprint import full_text, message_md5, service_md5
 from .limits import MAX_DEPTH, Measure, measure
 from .message import Message, make_message_class
-from .sources import PackageSource
-
-if TYPE_CHECKING:
-    from .sources import Source
+from .sources import PackageSource, Source
 
 MODULE_PREFIX = "rosmini.msgs"
 

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from pathlib import Path
+from typing import Protocol
 
 from rosmini.core.errors import DefinitionError
 from rosmini.core.files import read
 from rosmini.core.packages import PackageIndex, assets_dir, reconfigure_modules, search_paths
 
 from .definition import MAX_TEXT
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 KINDS = ("msg", "srv", "action")
 

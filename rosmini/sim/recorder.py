@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.geometry.angles import yaw_from_quaternion
 from rosmini.core.geometry.poses import Pose, compose, inverse
-from rosmini.core.graph import running_graph
+from rosmini.core.graph import Graph, running_graph
 from rosmini.core.graph.show import find_extension
 from rosmini.msgs import message_class
 
@@ -21,9 +21,6 @@ from .recording import Moved, Recording, RecordingError, since
 from .shapes import simple_parts
 from .simulation import Simulation
 from .world import Obstacle, World
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Graph
 
 Floats = NDArray[np.float64]
 

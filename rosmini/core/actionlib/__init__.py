@@ -7,7 +7,7 @@ This is the object API, on a :class:`rosmini.core.graph.Node`. Scripts import th
 
 from __future__ import annotations
 
-from .client import ActionClient, ClientGoalHandle
+from .client import ActionClient
 from .client_machine import CLIENT_TRANSITIONS, ClientMachine
 from .server import ActionServer
 from .server_goal_handle import SERVER_TRANSITIONS, GoalEvent, ServerGoalHandle, next_status
@@ -22,7 +22,6 @@ __all__ = [
     "ActionClient",
     "ActionException",
     "ActionServer",
-    "ClientGoalHandle",
     "ClientMachine",
     "CommState",
     "GoalEvent",

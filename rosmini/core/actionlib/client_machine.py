@@ -12,12 +12,9 @@ client may miss some: if it receives ``SUCCEEDED`` while ``PENDING``, it passes 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 from .states import CommState, IllegalTransition, Status
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 _LETTERS = {
     "P": CommState.PENDING,

@@ -8,15 +8,12 @@ dictionary itself: http://wiki.ros.org/dynamic_reconfigure/Tutorials), or from a
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.errors import RosminiError, nearest
 from rosmini.core.parameters import Parameters, declared_fields, is_scalar, limited_value
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
 
 
 class DynamicReconfigureException(RosminiError):

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, cast
+from collections.abc import Iterator, Mapping
+from typing import Any, cast
 
 from rosmini.msgs import message_class
 
 from .description import Description, DynamicReconfigureParameterException, ParameterGroup, ReconfigurableParameter
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
 
 _LISTS = {"bool": "bools", "int": "ints", "str": "strs", "double": "doubles"}
 _CLASSES = {"bool": "BoolParameter", "int": "IntParameter", "str": "StrParameter", "double": "DoubleParameter"}

@@ -10,7 +10,7 @@ values are read by the caller's `Fields`, never by ``getattr``. Sizes and steps 
 from __future__ import annotations
 
 from .budget import STEPS_OF_A_FILE, Budget, ExpressionError, NotAllowed
-from .expression import Expression, Fields, no_fields
+from .expression import Expression, no_fields
 from .functions import FUNCTIONS, MATH, Function, Namespace
 
 __all__ = [
@@ -20,7 +20,6 @@ __all__ = [
     "Budget",
     "Expression",
     "ExpressionError",
-    "Fields",
     "Function",
     "Namespace",
     "NotAllowed",

@@ -12,34 +12,27 @@ The other modules support these: clock, log messages, slave API, threads, Jupyte
 
 from __future__ import annotations
 
-from .clock import Rate, Timer, TimerEvent
+from .clock import Timer
 from .graph import Graph, default_graph, running_graph, set_default_graph
-from .lanes import Lane, LaneContext, LaneExit, Waiter
+from .lanes import LaneExit, Waiter
 from .node import Node
 from .publisher import MessageFactory, Publisher
-from .report import RunReport, Waiting
-from .scheduler import Scheduler
+from .report import RunReport
 from .service import ServiceClient, ServiceServer
 from .subscription import Subscriber
 
 __all__ = [
     "Graph",
-    "Lane",
-    "LaneContext",
     "LaneExit",
     "MessageFactory",
     "Node",
     "Publisher",
-    "Rate",
     "RunReport",
-    "Scheduler",
     "ServiceClient",
     "ServiceServer",
     "Subscriber",
     "Timer",
-    "TimerEvent",
     "Waiter",
-    "Waiting",
     "default_graph",
     "running_graph",
     "set_default_graph",

@@ -7,18 +7,15 @@ import threading
 import time
 from _thread import get_ident
 from collections import deque
+from collections.abc import Callable
 from contextlib import suppress
 from math import inf
 from numbers import Real
-from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
+from typing import Any, Generic, Protocol, TypeVar
 
 from rosmini.core.errors import RosminiError, shown
 
 from .threads import MAIN_THREAD
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
 
 SWEEP_FROM = 1_024
 """Number of entries above which cancelled ones are removed from time to time."""

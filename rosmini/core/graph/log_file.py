@@ -5,15 +5,12 @@ from __future__ import annotations
 import os
 import sys
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import Literal, TextIO
 
 from rosmini.core.errors import RosminiError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from typing import TextIO
 
 VARIABLE = "ROS_LOG_DIR"
 LEVEL_NAMES = {1: "DEBUG", 2: "INFO", 4: "WARNING", 8: "ERROR", 16: "CRITICAL"}

@@ -15,8 +15,9 @@ from __future__ import annotations
 import threading
 import weakref
 from _thread import get_ident
+from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 from greenlet import getcurrent, greenlet
 
@@ -28,9 +29,6 @@ from .lanes import Lane, LaneContext, LaneExit, RemoteWaiter, Waiter
 from .notebook import CellOutput, kernel_shell
 from .report import RunReport, Waiting, ended
 from .threads import MAIN_THREAD, InterruptGuard, Worker, adopt_thread, start_workers, work
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 T = TypeVar("T")
 E = TypeVar("E", bound=BaseException)

@@ -2,21 +2,8 @@
 
 from __future__ import annotations
 
-from .grid_map import FREE, OCCUPIED, UNKNOWN, GridMap, MapDataError, MapError, MapMetadataError, MapMissing
-from .map_io import MapFile, load_map, map_file
+from .grid_map import GridMap, MapDataError, MapError, MapMetadataError, MapMissing
+from .map_io import load_map, map_file
 from .map_saving import save_map
 
-__all__ = [
-    "FREE",
-    "OCCUPIED",
-    "UNKNOWN",
-    "GridMap",
-    "MapDataError",
-    "MapError",
-    "MapFile",
-    "MapMetadataError",
-    "MapMissing",
-    "load_map",
-    "map_file",
-    "save_map",
-]
+__all__ = ["GridMap", "MapDataError", "MapError", "MapMetadataError", "MapMissing", "load_map", "map_file", "save_map"]

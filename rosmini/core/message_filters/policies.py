@@ -9,12 +9,10 @@ approximate policy is different.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, Any, ClassVar
+from collections.abc import Sequence
+from typing import Any, ClassVar
 
 from .filters import MessageFilterError, check_size
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 Queue = dict[int, Any]
 """Messages that wait for partners, by stamp, in order of arrival."""

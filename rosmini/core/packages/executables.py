@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, field
+from importlib.metadata import EntryPoint
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.errors import ScriptError
-
-if TYPE_CHECKING:
-    from importlib.metadata import EntryPoint
 
 NODES_GROUP = "rosmini.nodes"
 """The entry-point group of built-in nodes; its names are ``package/executable``."""

@@ -24,11 +24,10 @@ from .client import ParamClient
 from .errors import RosParamException, RosParamIOException
 
 if TYPE_CHECKING:
-    from .documents import NS, Document, assignments, dumps, load_file, load_str, parse, pretty, printed
+    from .documents import NS, assignments, dumps, load_file, load_str, parse, pretty, printed
 
 __all__ = [
     "NS",
-    "Document",
     "ParamClient",
     "RosParamException",
     "RosParamIOException",

@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import yaml
 
@@ -22,8 +23,6 @@ from rosmini.core.yaml_text import Loader, children, documents, line_of
 
 from .errors import RosParamException
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
 _NAMES = {"pi": math.pi, "math": Namespace("math", MATH)}
 
 

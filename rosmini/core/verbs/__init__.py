@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from .listening import SECOND, Span, tool_node
-from .options import DURATION_S, Parser, add_duration, below_here, dashed_remapping, duration_ns, global_name
+from .options import Parser, add_duration, below_here, dashed_remapping, duration_ns, global_name
 from .tool import NOT_A_VERB, ArgumentParser, Call, Lines, Overview, Prompt, Result, Shown, Tool, Verb, VerbError, shown
 
 __all__ = [
-    "DURATION_S",
     "NOT_A_VERB",
     "SECOND",
     "ArgumentParser",

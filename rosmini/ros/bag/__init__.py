@@ -17,7 +17,7 @@ from .errors import (
     ROSBagUnindexedException,
 )
 from .migration import fix_bag
-from .player import Player, PlayOptions
+from .player import Player
 from .recorder import Recorder, RecordOptions
 from .records import Compression
 from .summary import BagMessage, BagMessageWithConnectionHeader
@@ -30,7 +30,6 @@ __all__ = [
     "BagMessageWithConnectionHeader",
     "Compression",
     "FilterError",
-    "PlayOptions",
     "Player",
     "ROSBagEncryptException",
     "ROSBagEncryptNotSupportedException",

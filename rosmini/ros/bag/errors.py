@@ -5,14 +5,11 @@ Names and base classes are those of ROS's ``rosbag``, so an ``except`` clause of
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from contextlib import contextmanager
 from io import UnsupportedOperation
-from typing import TYPE_CHECKING
 
 from rosmini.core.errors import RosminiError
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 
 class ROSBagException(RosminiError):

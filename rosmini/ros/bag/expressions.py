@@ -7,16 +7,14 @@ names: the fields and constants of a message (and ``_type``), the two numbers of
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 from rosmini.core.errors import shown
 from rosmini.core.expressions import ExpressionError
 from rosmini.ros.introspection.filters import message_expression
 
 from .errors import FilterError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 
 def compile_expression(text: str) -> Callable[[str, Any, Any], Any]:

@@ -9,10 +9,11 @@ from __future__ import annotations
 import io
 import os
 import struct
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any, BinaryIO
+from typing import IO, Any, BinaryIO
 
 from rosmini.core.errors import DefinitionError, UnknownPackage, UnknownType, shown
 from rosmini.core.time import Time
@@ -22,9 +23,6 @@ from .bag import Bag
 from .errors import ROSBagException, ROSBagFormatException
 from .records import PIECE, Allowance, Compression, check_unpacked, decompress
 from .tools import Copied, two_files
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 IN_OTHER_FIELDS = ("topic", "type", "message_definition")
 """Fields of the connection header that are stored elsewhere in the file."""

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import fields
-from typing import TYPE_CHECKING, Any, TypeVar
+from optparse import Values
+from typing import Any, TypeVar
 
 from rosmini.core.errors import UsageError
 from rosmini.core.verbs import Parser as ToolParser
@@ -12,11 +14,6 @@ from .errors import ROSBagException
 from .player import PlayOptions
 from .recorder import MEGABYTE, RecordOptions
 from .records import Compression
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-    from optparse import Values
-
 
 Options = TypeVar("Options", RecordOptions, PlayOptions)
 

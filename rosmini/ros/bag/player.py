@@ -7,22 +7,17 @@ It uses the graph's time, simulated or wall-clock, even if nodes use ``/clock``,
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from heapq import merge
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from rosmini.core.graph import MessageFactory
+from rosmini.core.graph import MessageFactory, Node, Publisher
 from rosmini.core.time import Time
 
 from .bag import Bag
 from .errors import ROSBagException
 from .reader import RawMessage
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from rosmini.core.graph import Node, Publisher
 
 PLAYED_LATCHED = frozenset({"/tf_static"})
 """Topics that are latched whatever the bag says, being useless otherwise (http://wiki.ros.org/tf2#tf_static)."""

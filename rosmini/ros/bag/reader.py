@@ -5,8 +5,9 @@ from __future__ import annotations
 import struct
 from bisect import bisect_left
 from collections import OrderedDict
+from collections.abc import Collection, Iterator
 from io import BufferedReader
-from typing import TYPE_CHECKING, BinaryIO, NamedTuple
+from typing import BinaryIO, NamedTuple
 
 from .errors import DamagedIndex, ROSBagFormatException, ROSBagUnindexedException, in_file
 from .index import Chunk, Connection, Index
@@ -37,9 +38,6 @@ from .records import (
     u32,
     u64,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
 
 KEPT = 16 * 1024 * 1024
 """Maximum size of cached chunks [bytes], besides the last one; overlapping chunks are read alternately."""

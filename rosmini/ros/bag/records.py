@@ -15,14 +15,12 @@ import io
 import os
 import re
 import struct
-from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
+from collections.abc import Mapping
+from typing import Any, BinaryIO, NamedTuple
 
 from rosmini.core.errors import shown
 
 from .errors import ROSBagEncryptNotSupportedException, ROSBagException, ROSBagFormatException, UnknownCompression
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 MAGIC = b"#ROSBAG V2.0\n"
 HEADER_ROOM = 4096

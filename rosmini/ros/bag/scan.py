@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, BinaryIO
+from typing import BinaryIO
 
 from rosmini.core.errors import shown
 
@@ -34,10 +35,6 @@ from .records import (
     u32,
 )
 from .records import field as number_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
 
 _CHUNK_MARK = b"\x04\x00\x00\x00op=" + bytes([OP_CHUNK])
 _BEFORE_MARK = (4, *{8 + len(f"compression={name}") for name in COMPRESSIONS})

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import errno
 import struct
-from typing import TYPE_CHECKING, BinaryIO
+from collections.abc import Iterable
+from typing import BinaryIO
 
 from .errors import BagFull, ROSBagException
 from .index import Chunk, Connection, Index
@@ -32,9 +33,6 @@ from .records import (
     u32,
     u64,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 CHUNK_THRESHOLD = 768 * 1024
 """Size at which a chunk is closed [bytes]."""

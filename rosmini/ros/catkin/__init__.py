@@ -7,7 +7,7 @@ modules for messages, services and actions in ``devel``, and writes the setup fi
 
 from .build import Report, make
 from .creation import NewPackage, create_package, init_workspace
-from .findings import CatkinError, Finding
+from .findings import CatkinError
 from .workspace import Workspace
 
-__all__ = ["CatkinError", "Finding", "NewPackage", "Report", "Workspace", "create_package", "init_workspace", "make"]
+__all__ = ["CatkinError", "NewPackage", "Report", "Workspace", "create_package", "init_workspace", "make"]

@@ -8,14 +8,12 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.dynamic_reconfigure.description import KINDS, cast_value, filled_parameter
 from rosmini.core.expressions import Budget, Function, Namespace
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 MAX_ITEMS = 2000
 """Maximum number of parameters, groups and constants in a file."""

@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 import shlex
 from collections.abc import Iterator
+from pathlib import Path
 from pprint import pformat
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core import files
 from rosmini.core.errors import DefinitionError, nearest
@@ -14,9 +15,6 @@ from rosmini.core.errors import DefinitionError, nearest
 from .findings import Finding, warning
 from .generation import MADE
 from .project import Project
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 PACKAGE = "dynamic_reconfigure"
 

@@ -7,16 +7,14 @@ number.
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.errors import nearest
 from rosmini.core.expressions import FUNCTIONS, MATH, Expression, Function, Namespace
 from rosmini.core.time import TVal
 from rosmini.msgs import Message
-
-if TYPE_CHECKING:
-    from collections.abc import Collection
 
 _METHODS: dict[type, tuple[str, ...]] = {TVal: ("to_sec", "to_nsec", "is_zero")}
 

@@ -8,16 +8,12 @@ from __future__ import annotations
 
 import re
 import socket
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.errors import ROSException, TransportException
-from rosmini.core.peers import host_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from rosmini.core.peers import Asker, Peers
+from rosmini.core.peers import Asker, Peers, host_of
 
 ID = "/rosnode"
 """Caller name for calls to the Master and the nodes."""

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
 
 from rosmini.core.errors import TransportException
-from rosmini.core.peers import host_of
+from rosmini.core.peers import Peers, host_of
 
 from .drops import Flow, flows
 from .nodes import namespace_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from rosmini.core.peers import Peers
 
 ID = "/rostopic"
 """Caller name for calls to the Master."""

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Container, Mapping, Sequence
-from typing import TYPE_CHECKING
 
 from rosmini.core.errors import nearest
 from rosmini.core.files import is_file
-from rosmini.core.markup import parse, parse_file
+from rosmini.core.markup import Element, parse, parse_file
 from rosmini.core.packages import PackageIndex
 
 from .errors import LaunchError, Place, not_there
@@ -18,9 +17,6 @@ from .plan import Argument, LaunchFile, NodePlan, Plan, TestPlan
 from .scope import Scope
 from .settings import read_env, read_param, read_remap, read_rosparam
 from .values import flag
-
-if TYPE_CHECKING:
-    from rosmini.core.markup import Element
 
 MAX_DEPTH = 60
 """Maximum depth of includes."""

@@ -7,15 +7,13 @@ exception: rosmini listens on the network only if ``ROS_IP`` or ``ROS_HOSTNAME``
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from ipaddress import ip_address
 from socket import AF_INET, AF_INET6, SOCK_DGRAM, gaierror, socket
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 from urllib.parse import urlsplit
 
 from rosmini.core.errors import ROSInitException, shown
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 MASTER_URI = "http://localhost:11311"
 """Default address of the Master."""

@@ -7,14 +7,11 @@ several machines: all lists are complete, but no message arrives (http://wiki.ro
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 from urllib.parse import urlsplit
 
 from .addresses import is_literal, is_loopback
 from .sockets import Unreached, resolve
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 LIMIT = 1_000
 """Maximum number of nodes and addresses remembered, to warn of each only once."""

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from pathlib import Path
 
 from rosmini.core.graph import Graph
 from rosmini.core.graph.local_transport import LocalTransport
@@ -12,10 +13,6 @@ from .addresses import addresses
 from .network import network_of, tcp
 from .remote_master import RemoteMaster
 from .watch import Watch
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from pathlib import Path
 
 
 def connect(

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING
+from collections.abc import Awaitable, Callable
 
 import h11
 
 from rosmini.core.errors import TransportException
-
-if TYPE_CHECKING:
-    from collections.abc import Awaitable, Callable
 
 HEAD_LIMIT = 64 * 1024
 """Maximum length of the start line with header fields [bytes]."""

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
 
 from rosmini.core import time as base
 from rosmini.core.errors import IllegalName, ROSException, ROSInitException, ROSInterruptException
@@ -16,9 +17,6 @@ from .logs import DEBUG, ERROR, FATAL, INFO, WARN
 from .msproxy import MasterProxy, published_topics
 from .session import Session, answer_interrupt, any_node, current_node, current_session, require_node
 from .topics import check_message_class, receipt_of, registered_class, resolve_early
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
 
 __all__ = [
     "DEBUG",

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 from rosmini.core.errors import ROSException, RosminiError
 
@@ -11,9 +12,6 @@ from .logs import DEBUG, ERROR, FATAL, INFO, WARN, internally, once, plainly, th
 from .msproxy import SlaveProxy
 from .names import get_caller_id, get_name
 from .session import any_node, current_node, current_session
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 __all__ = [
     "ParameterInvalid",

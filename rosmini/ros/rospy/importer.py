@@ -7,19 +7,16 @@ other programs.
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from importlib import import_module
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder
-from typing import TYPE_CHECKING
+from types import ModuleType
 
 from rosmini import msgs
 
 from .absent import absent_module
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-    from types import ModuleType
 
 _HERE = __package__ or "rosmini.ros.rospy"
 _ROSPY = "client core msg msproxy names numpy_msg rostime service timer topics"

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 from rosmini.core.graph.show import find_extension
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 GROUP = "rosmini.tools"
 

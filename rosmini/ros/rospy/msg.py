@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from io import BytesIO
+from typing import Any, ClassVar, Self
 
 from rosmini.core.errors import ROSException
 from rosmini.msgs.message import Message
-
-if TYPE_CHECKING:
-    from io import BytesIO
 
 
 class AnyMsg(Message):

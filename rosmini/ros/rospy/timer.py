@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 from rosmini.core import time as base
 from rosmini.core.graph import clock
@@ -10,9 +10,6 @@ from rosmini.core.graph.clock import TimerEvent
 
 from .rostime import Duration, Time
 from .session import answer_interrupt, any_node, require_node
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 
 def sleep(duration: float | base.Duration) -> None:

@@ -8,19 +8,17 @@ from __future__ import annotations
 
 from .by_name import find, rosrun
 from .console import Console
-from .context import ScriptContext, current_script
-from .handle import Handle, StillRunning
+from .context import current_script
+from .handle import StillRunning
 from .node_handle import NodeHandle, NodeSpec
 from .runner import RunResult, run_scripts, run_source
 from .script_handle import ScriptHandle, ScriptSpec
 
 __all__ = [
     "Console",
-    "Handle",
     "NodeHandle",
     "NodeSpec",
     "RunResult",
-    "ScriptContext",
     "ScriptHandle",
     "ScriptSpec",
     "StillRunning",

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.errors import ScriptError
 from rosmini.core.graph import Graph, running_graph
-from rosmini.core.packages import PackageIndex
+from rosmini.core.packages import Executable, PackageIndex
 
 from .console import Console
 from .node_handle import NodeHandle, NodeSpec
 from .script_handle import ScriptHandle, ScriptSpec
-
-if TYPE_CHECKING:
-    from rosmini.core.packages import Executable
 
 
 def find(name: str) -> Executable:

@@ -3,24 +3,20 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TextIO
+from types import ModuleType
+from typing import Any, TextIO
 
 from rosmini.core.errors import ScriptError
-from rosmini.core.graph import Graph
+from rosmini.core.graph import Graph, RunReport
 from rosmini.core.graph.event_queue import span_ns
 
 from .console import Console
 from .handle import shell_status
 from .node_handle import NodeHandle, NodeSpec
 from .script_handle import END_GRACE_S, INTERRUPTED, ScriptHandle, ScriptSpec
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping, Sequence
-    from types import ModuleType
-
-    from rosmini.core.graph import RunReport
 
 
 @dataclass(frozen=True)

@@ -7,14 +7,11 @@ import linecache
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from types import CodeType
 
 from rosmini.core.errors import ScriptError, nearest
 
 from .ticks import with_ticks
-
-if TYPE_CHECKING:
-    from types import CodeType
 
 _BINARY = {
     b"\x7fELF": "a compiled program (ELF)",

@@ -5,12 +5,10 @@ from __future__ import annotations
 import io
 import sys
 import threading
-from typing import TYPE_CHECKING, TextIO
+from collections.abc import Callable
+from typing import TextIO
 
 from rosmini.core.graph.scheduler import CALL_TICKS
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 
 class OutputSink:

@@ -1,6 +1,6 @@
 """The devices of simulated robots, shared by TurtleBot3's simulator, Stage and Gazebo."""
 
-from .board import BatteryDevice, SensorStateDevice, Switches, contacts
+from .board import BatteryDevice, SensorStateDevice, Switches
 from .bumper import Bumper
 from .camera import CameraDevice
 from .clock import ClockDevice
@@ -8,7 +8,7 @@ from .drive import DifferentialDrive, GroundTruth, JointStates, OdometryTransfor
 from .imu import ImuDevice
 from .laser import Laser, RangeDevice
 from .namespaces import prefixed, within
-from .sensor import Outlet, Sensor
+from .sensor import Sensor
 
 __all__ = [
     "BatteryDevice",
@@ -21,13 +21,11 @@ __all__ = [
     "JointStates",
     "Laser",
     "OdometryTransforms",
-    "Outlet",
     "PlanarMove",
     "RangeDevice",
     "Sensor",
     "SensorStateDevice",
     "Switches",
-    "contacts",
     "one_of",
     "prefixed",
     "within",

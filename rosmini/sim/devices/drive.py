@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from rosmini.core.errors import RosminiError, nearest
 from rosmini.core.geometry.angles import normalize_angle
@@ -16,7 +16,7 @@ from rosmini.core.geometry.poses import Pose, compose, inverse
 from rosmini.core.graph import MessageFactory
 from rosmini.msgs import message_class
 from rosmini.sim.engine.odometry import Odometry
-from rosmini.sim.engine.robot import HolonomicRobot
+from rosmini.sim.engine.robot import HolonomicRobot, Robot
 from rosmini.sim.host import Device, Host, Stamp
 from rosmini.sim.messages import (
     BASE,
@@ -33,9 +33,6 @@ from rosmini.sim.messages import (
 
 from .imu import ImuDevice
 from .sensor import Outlet, Sensor
-
-if TYPE_CHECKING:
-    from rosmini.sim.engine.robot import Robot
 
 WHEELS = ("wheel_left_joint", "wheel_right_joint")
 """Names of TurtleBot3's wheel joints."""

@@ -5,15 +5,12 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
-from rosmini.core.graph import MessageFactory
+from rosmini.core.graph import MessageFactory, Node
 from rosmini.msgs import message_class
 from rosmini.msgs.template import template
 from rosmini.sim.host import Device, Host, Stamp
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
 
 STAMP = ("header.stamp.secs", "header.stamp.nsecs")
 

@@ -11,8 +11,7 @@ turtles in `turtles`.
 from __future__ import annotations
 
 from .interpreter import Logo
-from .turtles import Flock, Paper, Turtle
 from .values import LogoError, LogoStopped
 from .words import Limits
 
-__all__ = ["Flock", "Limits", "Logo", "LogoError", "LogoStopped", "Paper", "Turtle"]
+__all__ = ["Limits", "Logo", "LogoError", "LogoStopped"]

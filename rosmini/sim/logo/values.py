@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable, Iterator
 from itertools import islice
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 from rosmini.core.errors import RosminiError, nearest
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
 
 MAX_SIZE = 1_000_000
 """Maximum number of members and characters in a value."""

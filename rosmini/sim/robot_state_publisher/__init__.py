@@ -4,6 +4,6 @@ from __future__ import annotations
 
 from .chain import Chain, joint_transform
 from .description import read_description
-from .node import RobotStatePublisher, RobotStatePublisherParameters
+from .node import RobotStatePublisher
 
-__all__ = ["Chain", "RobotStatePublisher", "RobotStatePublisherParameters", "joint_transform", "read_description"]
+__all__ = ["Chain", "RobotStatePublisher", "joint_transform", "read_description"]

@@ -1,19 +1,16 @@
 """SDF, the format of Gazebo's worlds and models (http://sdformat.org): reading, and conversion to flat worlds."""
 
-from .convert import converted, to_obstacles, to_walker, to_world
+from .convert import converted, to_obstacles, to_world
 from .document import (
     ORIGIN,
-    Note,
     Pose6,
     Sdf,
-    SdfActor,
     SdfCollision,
     SdfGeometry,
     SdfInertial,
     SdfJoint,
     SdfLink,
     SdfModel,
-    SdfPhysics,
     SdfPlugin,
     SdfSensor,
     SdfVisual,
@@ -25,10 +22,8 @@ from .reader import load
 
 __all__ = [
     "ORIGIN",
-    "Note",
     "Pose6",
     "Sdf",
-    "SdfActor",
     "SdfCollision",
     "SdfError",
     "SdfGeometry",
@@ -36,7 +31,6 @@ __all__ = [
     "SdfJoint",
     "SdfLink",
     "SdfModel",
-    "SdfPhysics",
     "SdfPlugin",
     "SdfSensor",
     "SdfVisual",
@@ -45,6 +39,5 @@ __all__ = [
     "load",
     "placed_links",
     "to_obstacles",
-    "to_walker",
     "to_world",
 ]

@@ -9,8 +9,8 @@ Stage is the simulator of the Player project, by Richard Vaughan: many robots, p
 (https://github.com/rtv/Stage).
 """
 
-from .errors import Place, StageError
-from .robots import StageCamera, StageLaser, StageRobot
+from .errors import StageError
+from .robots import StageRobot
 from .world_file import StageWorld, load
 
-__all__ = ["Place", "StageCamera", "StageError", "StageLaser", "StageRobot", "StageWorld", "load"]
+__all__ = ["StageError", "StageRobot", "StageWorld", "load"]

@@ -3,37 +3,14 @@
 from __future__ import annotations
 
 from .errors import UnknownJoint, UrdfError
-from .model import (
-    Box,
-    Collision,
-    Cylinder,
-    Dynamics,
-    Extension,
-    Geometry,
-    Inertial,
-    Joint,
-    Limit,
-    Link,
-    Material,
-    Mesh,
-    Mimic,
-    Origin,
-    Robot,
-    Sphere,
-    Visual,
-)
+from .model import Box, Cylinder, Geometry, Joint, Link, Material, Mesh, Mimic, Origin, Robot, Sphere, Visual
 from .reader import load
 
 __all__ = [
     "Box",
-    "Collision",
     "Cylinder",
-    "Dynamics",
-    "Extension",
     "Geometry",
-    "Inertial",
     "Joint",
-    "Limit",
     "Link",
     "Material",
     "Mesh",

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
+from optparse import Values
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from rosmini.core.errors import RosminiError, nearest
 from rosmini.core.packages import PackageIndex
 from rosmini.core.verbs import Call, Lines, Parser, Result, Shown, Tool, tool_node
 from rosmini.sim.logo import Logo, LogoError
-
-if TYPE_CHECKING:
-    from optparse import Values
 
 TOOL = Tool(
     "logo",

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from functools import lru_cache
 from operator import attrgetter
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.errors import shown
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
 
 MAX_FIELDS = 6
 """Maximum number of numbers and texts in a small message."""

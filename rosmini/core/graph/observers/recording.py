@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Iterator
 from itertools import zip_longest
-from typing import TYPE_CHECKING, Any
+from types import TracebackType
+from typing import Any, Self
 
 from rosmini.core.graph.show import show
 
-from .history import MASTER
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
-    from types import TracebackType
-    from typing import Self
-
-    from .history import Event, History
+from .history import MASTER, Event, History
 
 Call = tuple[str, str, str, str | None]
 """(caller, callee, text, the answer or None), the form that a sequence diagram needs."""

@@ -5,18 +5,13 @@ from __future__ import annotations
 import os
 import shlex
 import sys
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from rosmini.core.errors import DefinitionError
-from rosmini.core.packages import BUILT_IN, SCRIPT_FOLDERS, crawl
+from rosmini.core.packages import BUILT_IN, SCRIPT_FOLDERS, PackageIndex, crawl
 
 from .findings import Finding
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
-
-    from rosmini.core.packages import PackageIndex
 
 HEAD = 256
 """Number of bytes read from a script to find its first line."""

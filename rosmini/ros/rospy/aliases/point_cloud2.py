@@ -5,13 +5,11 @@ from __future__ import annotations
 import math
 import struct
 from collections import namedtuple
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
 
 from rosmini.core.errors import MessageException
 from rosmini.msgs import message_class
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
 
 PointCloud2 = message_class("sensor_msgs/PointCloud2")
 PointField = message_class("sensor_msgs/PointField")

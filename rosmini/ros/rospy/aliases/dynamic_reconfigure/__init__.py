@@ -7,7 +7,8 @@ all this one. The node is that of the script. The implementation is :mod:`rosmin
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 from rosmini.core import dynamic_reconfigure
 from rosmini.core.dynamic_reconfigure.description import (
@@ -19,9 +20,6 @@ from rosmini.core.dynamic_reconfigure.encoding import Config
 from rosmini.msgs.dynamic_reconfigure import msg, srv
 from rosmini.ros.rospy.aliases.rosgraph.masterapi import Master
 from rosmini.ros.rospy.session import require_node
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 __all__ = [
     "Client",

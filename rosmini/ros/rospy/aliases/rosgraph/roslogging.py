@@ -8,16 +8,13 @@ import os
 import re
 import sys
 import time
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any, TextIO
 
 from rosmini.core.errors import RosminiError
 from rosmini.ros.rospy.names import get_name
 from rosmini.ros.rospy.session import any_node, current_session
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-    from typing import TextIO
 
 COLOURS = {"DEBUG": "\033[32m", "WARN": "\033[33m", "ERROR": "\033[31m", "FATAL": "\033[31m"}
 SEVERITIES = {"WARNING": "WARN", "CRITICAL": "FATAL"}

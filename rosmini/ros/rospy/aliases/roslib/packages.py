@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.errors import RosminiError, UnknownPackage
 from rosmini.core.packages import PackageIndex
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 MANIFEST_FILE = "manifest.xml"
 PACKAGE_FILE = "package.xml"

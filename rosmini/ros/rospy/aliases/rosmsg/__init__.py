@@ -5,14 +5,12 @@ Functions accept the ``rospack`` argument of the real ones, but use the packages
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import Any
 
 from rosmini.core.errors import DefinitionError, IllegalName, RosminiError, UnknownPackage, UnknownType
 from rosmini.ros.introspection.types import MESSAGE, SERVICE, Kind
 from rosmini.ros.rospy.mains import run_tool
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 __all__ = [
     "MODE_MSG",

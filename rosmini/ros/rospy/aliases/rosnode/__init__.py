@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.errors import MasterUnreachable, RosminiError, TransportException
 from rosmini.core.graph import running_graph
@@ -13,9 +13,6 @@ from rosmini.ros.introspection import nodes
 from rosmini.ros.rospy.aliases import rosgraph
 from rosmini.ros.rospy.aliases.rosgraph.names import script_resolve_name
 from rosmini.ros.rospy.mains import run_tool
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 __all__ = [
     "ID",

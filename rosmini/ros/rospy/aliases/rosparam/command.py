@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import NoReturn
 
 from rosmini.core.rosparam import RosParamException, pretty, printed
 from rosmini.ros.rospy.aliases.rosgraph.masterapi import MasterException
 from rosmini.ros.rospy.aliases.rosgraph.names import GLOBALNS, script_resolve_name
 
 from . import api
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 NAME = "rosparam"
 VERBS = {

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.errors import MasterUnreachable, MessageException, RosminiError
 from rosmini.core.graph import running_graph
@@ -17,9 +17,6 @@ from rosmini.ros.rospy.mains import run_tool
 
 from .echoing import CallbackEcho
 from .measures import ROSTopicBandwidth, ROSTopicDelay, ROSTopicHz
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 __all__ = [
     "NAME",

@@ -6,14 +6,11 @@ import threading
 from collections import defaultdict
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.graph import running_graph
-from rosmini.ros.introspection.rates import Arrivals, Delays, Sizes, delay_text, rate_table, rate_text
+from rosmini.ros.introspection.rates import Arrivals, Delays, Sizes, Statistics, delay_text, rate_table, rate_text
 from rosmini.ros.rospy.rostime import get_rostime
-
-if TYPE_CHECKING:
-    from rosmini.ros.introspection.rates import Statistics
 
 Numbers = tuple[float, float, float, float, int]
 

@@ -5,7 +5,8 @@
 from __future__ import annotations
 
 import copy
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 from rosmini.core.errors import RosminiError
 from rosmini.core.tf import messages
@@ -13,9 +14,6 @@ from rosmini.core.time import Duration, Time
 from rosmini.msgs import message_class
 from rosmini.ros.rospy.logs import warn_once
 from rosmini.ros.rospy.session import current_session
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 AT_ONCE = Duration()
 
