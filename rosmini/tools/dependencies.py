@@ -5,15 +5,11 @@ Only run-time dependencies count, and only those that are packages: the others a
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from rosmini.core.errors import DefinitionError, UnknownPackage, nearest
 from rosmini.core.packages import BUILT_IN, Package, PackageIndex
-
-MAX_LINES = 10_000
-"""Maximum number of lines of an answer that can grow exponentially with the number of packages."""
 
 
 @dataclass(frozen=True)
@@ -97,37 +93,3 @@ class Dependencies:
             found |= new
             waiting += sorted(new)
         return sorted(found), broken
-
-    def tree(self, name: str) -> list[str]:
-        """Return the dependencies of ``name`` as an indented tree of at most `MAX_LINES` lines."""
-        lines: list[str] = []
-        for path in self._paths(name):
-            lines.append("  " * (len(path) - 2) + path[-1])
-            if len(lines) >= MAX_LINES:
-                break
-        return lines
-
-    def chains(self, name: str, target: str) -> list[list[str]]:
-        """Return all chains of dependencies from ``name`` to ``target``, at most `MAX_LINES`."""
-        able = {target, *self.dependents(target, direct=False)[0]}
-        found: list[list[str]] = []
-        for path in self._paths(name, able):
-            if path[-1] == target:
-                found.append(path)
-            if len(found) >= MAX_LINES:
-                break
-        return found
-
-    def _paths(self, name: str, within: set[str] | None = None) -> Iterator[list[str]]:
-        """Yield every path from ``name`` along its dependencies, depth first."""
-        path = [name]
-        waiting = [iter(self.direct(name))]
-        while waiting:
-            child = next(waiting[-1], None)
-            if child is None:
-                waiting.pop()
-                path.pop()
-            elif child not in path and (within is None or child in within):
-                path.append(child)
-                yield list(path)
-                waiting.append(iter(self.direct(child)))

@@ -9,11 +9,10 @@ from collections.abc import Callable, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from time import perf_counter
 from typing import TYPE_CHECKING
 
 from rosmini.core.errors import DefinitionError, RosminiError, UnknownPackage, UsageError, nearest
-from rosmini.core.packages import PackageIndex, crawl
+from rosmini.core.packages import PackageIndex
 from rosmini.core.verbs import ArgumentParser, Call, Lines, Result, Tool, VerbError
 from rosmini.tools.dependencies import Dependencies
 
@@ -21,9 +20,6 @@ from .terminal import Terminal
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-
-SHOWN = 20
-"""Default number of folders that `profile` shows."""
 
 
 @dataclass(frozen=True)
@@ -85,10 +81,7 @@ class Queries:
             if named:
                 parser.add_argument("name", nargs="?", help=f"the {named}; by default that of the working folder")
             for option in options:
-                if option.endswith("?"):
-                    parser.add_argument(f"--{option[:-1]}", action="store_true")
-                else:
-                    parser.add_argument(f"--{option}")
+                parser.add_argument(f"--{option}")
             return parser
 
         return make
@@ -97,28 +90,17 @@ class Queries:
         """Register the verbs common to both tools, under all their names."""
         noun = self.noun
 
-        def add(
-            names: str,
-            summary: str,
-            act: Callable[[argparse.Namespace, Call], Result],
-            *options: str,
-            named: str = noun,
-        ) -> None:
+        def add(names: str, summary: str, act: Callable[[argparse.Namespace, Call], Result], named: str = noun) -> None:
             for name in names.split():
-                parser = self.parser(name, *options, named=named)
-                self.tool.verb(summary, name=name, parser=parser)(act)
+                self.tool.verb(summary, name=name, parser=self.parser(name, named=named))(act)
 
         add("find", f"print the folder of a {noun}", self._find)
         add("list", f"list {noun}s and their folders", self._list, named="")
         add("list-names", f"list the names of {noun}s", self._list_names, named="")
         add("depends deps", f"list all that a {noun} needs", self._depends)
         add("depends1 deps1", f"list what a {noun} needs directly", self._depends1)
-        add("depends-indent deps-indent", f"list all that a {noun} needs, as a tree", self._indent)
-        add("depends-manifests deps-manifests", f"list the manifests of all that a {noun} needs", self._manifests)
-        add("depends-why deps-why", f"list every way in which a {noun} needs another", self._why, "target")
         add("depends-on", f"list all {noun}s that need one", self._depends_on)
         add("depends-on1", f"list the {noun}s that need one directly", self._depends_on1)
-        add("profile", "time the search, by folder", self._profile, "length", "zombie-only?", named="")
 
     # -- verbs -------------------------------------------------------------------------------------------------
 
@@ -148,30 +130,6 @@ class Queries:
     def _depends1(self, given: argparse.Namespace, _call: Call) -> Lines:
         return self.lines(given, lambda known, name: known.direct(name))
 
-    def _indent(self, given: argparse.Namespace, _call: Call) -> Lines:
-        return self.lines(given, lambda known, name: known.tree(name))
-
-    def _manifests(self, given: argparse.Namespace, _call: Call) -> Lines:
-        return self.lines(
-            given, lambda known, name: [" ".join(str(known.manifest(each)) for each in known.all_of(name))]
-        )
-
-    def _why(self, given: argparse.Namespace, _call: Call) -> Lines:
-        if not given.target:
-            raise self.error(f"no {self.noun} or target given")
-        target = given.target
-
-        def ask(known: Dependencies, name: str) -> list[str]:
-            with self.original_errors(f"{self.noun} '{target}' not found"):
-                known.path(target)
-            known.path(name)
-            chains = [f"* {' -> '.join(chain)} " for chain in known.chains(name, target)]
-            if not chains:
-                return [f"No dependency chains from {name} to {target}"]
-            return [f"Dependency chains from {name} to {target}:", *chains]
-
-        return self.lines(given, ask)
-
     def _depends_on(self, given: argparse.Namespace, _call: Call) -> Lines:
         return self._dependents(given, direct=False)
 
@@ -185,32 +143,6 @@ class Queries:
             known.path(name)
             found, broken = known.dependents(name, direct=direct)
         return Lines(lines=tuple(found), complaints=self._broken(known, broken))
-
-    def _profile(self, given: argparse.Namespace, _call: Call) -> Lines:
-        try:
-            length = SHOWN if given.length is None else int(given.length)
-        except ValueError as error:
-            raise self.error(f"--length is a number of folders, not {given.length!r}") from error
-        timed = []
-        start = perf_counter()
-        for root in PackageIndex().paths:
-            timed.append(_timed(root))
-            below = [] if timed[-1][2] else _folders_in(root)
-            timed += [_timed(folder) for folder in below]
-        total = perf_counter() - start
-        timed.sort(key=lambda each: -each[0])
-        if given.zombie_only:
-            return Lines(lines=tuple([str(folder) for _, folder, _, empty in timed if empty][:length]))
-        heading = (
-            f"Full tree crawl took {total:.6f} seconds.",
-            "Directories marked with (*) contain no manifest.  You may",
-            "want to delete these directories.",
-            "To get just of list of directories without manifests,",
-            "re-run the profile with --zombie-only",
-            "-" * 61,
-        )
-        rows = (f"{time:.6f} {'*' if empty else ' '} {folder}" for time, folder, _, empty in timed[:length])
-        return Lines(lines=(*heading, *rows))
 
     # -- in a terminal ------------------------------------------------------------------------------------------
 
@@ -238,17 +170,3 @@ class Queries:
         except UsageError as error:
             print(error, file=sys.stderr)
             return 1
-
-
-def _timed(folder: Path) -> tuple[float, Path, bool, bool]:
-    """Return the time to search a folder, whether it is a package, and whether it is empty."""
-    start = perf_counter()
-    found = list(crawl(folder))
-    return perf_counter() - start, folder, folder in found, not found
-
-
-def _folders_in(root: Path) -> list[Path]:
-    try:
-        return sorted(path for path in root.iterdir() if path.is_dir() and not path.name.startswith("."))
-    except OSError:
-        return []
