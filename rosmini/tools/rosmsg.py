@@ -1,6 +1,6 @@
 """`rosmini rosmsg` and `rosmini rossrv`: definitions of types, as ROS's tools show them (http://wiki.ros.org/rosmsg).
 
-They read packages and bags; they need no Master. In Python they return data:
+They read packages; they need no Master. In Python they return data:
 ``TOOL.run("show", "geometry_msgs/Pose").definitions``.
 """
 
@@ -10,16 +10,13 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
-from rosmini.core.errors import DefinitionError, IllegalName, UnknownPackage, UnknownType, nearest
+from rosmini.core.errors import DefinitionError, IllegalName, UnknownPackage, UnknownType
 from rosmini.core.verbs import NOT_A_VERB, Call, Lines, Overview, Parser, Result, Tool, VerbError
-from rosmini.ros.introspection.types import MESSAGE, Kind, tree
-
-from .rostopic_list import check_bag
+from rosmini.ros.introspection.types import MESSAGE, Kind
 
 if TYPE_CHECKING:
     from optparse import Values
 
-    from rosmini.ros.bag.index import Connection
 
 UNREADABLE = (DefinitionError, IllegalName, UnknownPackage, UnknownType)
 
@@ -94,7 +91,6 @@ class _Verbs:
         example = "nav_msgs/GetPlan" if self.kind is not MESSAGE else "geometry_msgs/Pose"
         parser = self.parser(f"{verb} [options] <{self.kind.name} type>", text, f"{verb} {example}")
         parser.flag("-r", "--raw", dest="raw", help="as in its file, with comments")
-        parser.add_option("-b", "--bag", metavar="BAGFILE", help="as in a bag")
         return parser
 
     def show(self, given: Values, call: Call) -> Definitions:
@@ -106,8 +102,6 @@ class _Verbs:
             usage.error(f"{self.tool} does not understand C++-style namespaces (i.e. '::').\n{written}")
         if "." in name:
             usage.error(f"invalid message type '{name}'.\n{written}")
-        if given.bag:
-            return self._in_bag(given.bag, name, raw=given.raw)
         if "/" in name:
             return Definitions(definitions={name: self._text(name, raw=given.raw)})
         found = self.kind.search(name)
@@ -121,24 +115,6 @@ class _Verbs:
         except UNREADABLE as error:
             what = "Unable to load msg" if self.kind is MESSAGE else "Unknown srv type"
             raise VerbError(f"{what} [{name}]: {error}") from error
-
-    def _in_bag(self, path: str, name: str, *, raw: bool) -> Definitions:
-        from rosmini.ros.bag import Bag
-        from rosmini.ros.bag.errors import ROSBagException
-        from rosmini.ros.bag.types import recorded_class
-
-        check_bag(path)
-        try:
-            with Bag(path) as bag:
-                recorded: dict[str, Connection] = {each.type: each for each in bag.index.connections.values()}
-            if name not in recorded:
-                hint = nearest(name, recorded) or f"there are {', '.join(sorted(recorded)) or 'none'}"
-                raise VerbError(f"ERROR: no messages of type {name} are in {path}; {hint}")
-            cls = recorded_class(recorded[name])
-        except ROSBagException as error:
-            raise VerbError(f"ERROR: {error}") from error
-        text = cls._full_text if raw else tree(cls._spec, cls._registry.definition)
-        return Definitions(definitions={name: text})
 
     # -- md5 ---------------------------------------------------------------------------------------------------------
 

@@ -97,10 +97,7 @@ class Changed(Result):
 
 def _set_parser() -> Parser:
     text = "Set a parameter to a value in YAML; a dictionary is merged into what is there."
-    parser = _parser("set [options] parameter value", text, "set /gains '{p: 1.0, i: 0.1}'")
-    parser.add_option("-t", "--textfile", dest="text_file", metavar="TEXT_FILE", help="to the text of a file")
-    parser.add_option("-b", "--binfile", dest="bin_file", metavar="BINARY_FILE", help="to the bytes of a file")
-    return parser
+    return _parser("set [options] parameter value", text, "set /gains '{p: 1.0, i: 0.1}'")
 
 
 @TOOL.verb("set parameter", name="set", parser=_set_parser, only_asks=True, takes="parameter value")
@@ -109,17 +106,12 @@ def set_(given: Values, call: Call) -> Changed:
     from rosmini.core.rosparam import assignments, parse
 
     usage = _set_parser()
-    if given.text_file and given.bin_file:
-        usage.error("you may only specify one of --textfile or --binfile")
     name, text = _words(given, usage, "a parameter name", 2)
-    resolved, file = global_name(name), given.text_file or given.bin_file
+    resolved = global_name(name)
+    if len(given.words) < 2:
+        usage.error("invalid arguments. Please specify a parameter value")
     try:
-        if file:
-            value: Any = _content(file, usage, text=bool(given.text_file))
-        elif len(given.words) < 2:
-            usage.error("invalid arguments. Please specify a parameter value")
-        else:
-            value = parse(text) if text else ""
+        value = parse(text) if text else ""
         settings = list(assignments(resolved, value))
         _client(call).upload(resolved, value)
     except ParameterError as error:
@@ -127,18 +119,6 @@ def set_(given: Values, call: Call) -> Changed:
     for one, item in settings if given.verbose else ():
         call.say(f"set parameter [{one}] to [{item}]")
     return Changed(names=tuple(one for one, _ in settings), values=tuple(item for _, item in settings))
-
-
-def _content(path: str, usage: Parser, *, text: bool) -> str | bytes:
-    """Return the contents of a file. Raises ``UsageError`` and ``VerbError``."""
-    if not Path(path).is_file():
-        usage.error(f"file '{path}' does not exist")
-    try:
-        return Path(path).read_text(encoding="utf-8") if text else Path(path).read_bytes()
-    except UnicodeDecodeError as error:
-        raise VerbError(f"ERROR: {path} is not UTF-8 text; -b sets a parameter to the bytes of a file") from error
-    except OSError as error:
-        raise VerbError(f"ERROR: {path} cannot be read: {error.strerror}") from error
 
 
 # -- get ---------------------------------------------------------------------------------------------------------------

@@ -77,8 +77,6 @@ def run_node(package: str, executable: str, arguments: Sequence[str]) -> int:
 
     words = tuple(arguments)
     found = find(f"{package}/{executable}")
-    if found.path is not None:
-        _warn_of_a_robot(found.path)
     if dashed := dashed_remapping(words):
         print(f"rosmini rosrun: {dashed}", file=sys.stderr)
     spec = NodeSpec(found, words) if found.path is None else ScriptSpec(str(found.path), words)
@@ -99,19 +97,6 @@ def _program(package: str, executable: str) -> str:
     except RosminiError:
         return ""
     return "" if words[: len(ROSRUN)] == ROSRUN else words[0]
-
-
-def _warn_of_a_robot(path: Path) -> None:
-    """Warn if ROS could not start a script that rosmini starts: not executable, or no valid shebang line."""
-    from rosmini.core.packages import assets_dir
-    from rosmini.ros.catkin.scripts import check_script
-
-    if path.is_relative_to(assets_dir()):  # ours: an installer may have made it not executable
-        return
-    for finding in check_script(path):
-        if finding.line in (None, 1):
-            where = path if finding.line is None else f"{path}:{finding.line}"
-            print(f"rosmini rosrun: {where}: {finding.message}. It runs here, and not on a robot", file=sys.stderr)
 
 
 def _become(words: Sequence[str]) -> int:

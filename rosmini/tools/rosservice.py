@@ -6,17 +6,14 @@ they return data: ``TOOL.run("call", "/set_bool", "true", graph=graph).response.
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from rosmini.core.errors import MessageException, ROSException, SerializationError, ServiceException, TransportException
 from rosmini.core.verbs import Call, Lines, Overview, Parser, Result, Tool, VerbError, global_name, tool_node
 from rosmini.ros.introspection import services
 
-from .values import WrongYaml, fields_of, fill, listed, parse, typed
+from .values import WrongYaml, fields_of, fill, parse
 
 if TYPE_CHECKING:
     from optparse import Values
@@ -142,22 +139,9 @@ def call_(given: Values, call: Call) -> Result:
             except ROSException as error:  # for instance, no event is left in the graph
                 raise _failed(str(error)) from error
         cls = _class_of(call, name)
-        ask = partial(_called, node, name, cls, verbose=given.verbose)
-        if values or not cls._request_class.__slots__:
-            return ask(values)
-        if call.read_line is None or sys.stdin.isatty():
+        if not values and cls._request_class.__slots__:
             usage.error(f"Please specify service arguments\n{name} takes: {fields_of(cls._request_class)}")
-        return _call_each(call, ask)
-
-
-def _call_each(call: Call, ask: Callable[[Any], Called]) -> Result:
-    """Call the service with each document on standard input; print all responses but the last."""
-    last: Called | None = None
-    for value in typed(call):
-        if last is not None:
-            call.say(str(last))
-        last = ask(listed(value))
-    return last or Result()
+        return _called(node, name, cls, values, verbose=given.verbose)
 
 
 def _called(node: Node, name: str, cls: Any, values: list[Any], *, verbose: bool) -> Called:

@@ -24,13 +24,7 @@ TOOL.verb("display bandwidth used by topic", name="bw", parser=rostopic_rates.bw
 TOOL.verb(
     "display delay of topic from timestamp in header", name="delay", parser=rostopic_rates.delay_parser, takes="topic"
 )(rostopic_rates.delay)
-TOOL.verb(
-    "print messages to screen",
-    name="echo",
-    parser=rostopic_echo.echo_parser,
-    only_asks=lambda given: bool(given.bag),
-    takes="topic",
-)(rostopic_echo.echo)
+TOOL.verb("print messages to screen", name="echo", parser=rostopic_echo.echo_parser, takes="topic")(rostopic_echo.echo)
 TOOL.verb("find topics by type", name="find", parser=rostopic_list.find_parser, only_asks=True, takes="msg")(
     rostopic_list.find
 )

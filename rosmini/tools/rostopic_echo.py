@@ -1,4 +1,4 @@
-"""``rostopic echo``: prints messages or their fields as text or as comma-separated values, live or from a bag."""
+"""``rostopic echo``: prints messages or their fields as text or as comma-separated values."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from rosmini.core.verbs import SECOND, Call, Result, Span, VerbError, add_duration, duration_ns, global_name, tool_node
 
 from .listening import await_topic, class_for, predicate
-from .rostopic_list import check_bag, parser_of
+from .rostopic_list import parser_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -36,7 +36,6 @@ def echo_parser() -> Parser:
     """Return the parser of ``rostopic echo``."""
     parser = parser_of("echo [options] /topic", "Print messages, or a field of them.", "echo -n 3 /scan/ranges[0:5]")
     add = parser.add_option
-    add("-b", "--bag", metavar="BAGFILE", help="messages of a bag, instead of live ones")
     parser.flag("-p", dest="plot", help="a line of comma-separated values for each, for programs that plot")
     add("-w", dest="width", metavar="NUM_WIDTH", help="so many characters for each number")
     add(
@@ -48,7 +47,6 @@ def echo_parser() -> Parser:
     parser.flag("--nostr", dest="nostr", help="leave texts out")
     parser.flag("--noarr", dest="noarr", help="leave arrays out")
     parser.flag("-c", "--clear", dest="clear", help="clear the terminal before each message")
-    parser.flag("-a", "--all", dest="all_topics", help="all topics of the bag; only with -b")
     add("-n", dest="count", metavar="COUNT", help="so many messages")
     parser.flag("--offset", dest="offset", help="times relative to the present [s]")
     add_duration(parser)
@@ -69,25 +67,18 @@ def _options(given: Values) -> _Options:
     usage = echo_parser()
     if len(given.words) > 1:
         usage.error("you may only specify one input topic")
-    if given.all_topics and not given.bag:
-        usage.error("Display all option is only valid when echoing from bag files")
-    if given.offset and given.bag:
-        usage.error("offset time option is not valid with bag files")
-    if not given.words and not given.all_topics:
+    if not given.words:
         usage.error("topic must be specified")
     width = usage.whole(given.width, "NUM_WIDTH must be an integer")
     if width is not None and not 2 <= width <= 100:
         usage.error("Fixed width for numeric values must be at least 2, and at most 100")
     count = usage.whole(given.count, "COUNT must be an integer")
-    topic = "" if given.all_topics else global_name(given.words[0])
-    return _Options(topic, count, width, predicate(given.filter))
+    return _Options(global_name(given.words[0]), count, width, predicate(given.filter))
 
 
 def echo(given: Values, call: Call) -> Echoed:
     """Print messages."""
     options = _options(given)
-    if given.bag:
-        return _echo_bag(given, options, call)
     span = Span.of(call.graph, duration_ns(given, call))
     found = await_topic(call, options.topic, span)
     if found is None:
@@ -110,33 +101,10 @@ def _warn_if_nothing_comes(echoer: _Echo, span: Span) -> None:
     echoer.call.warn("WARNING: no messages received and simulated time is active.\nIs /clock being published?")
 
 
-def _echo_bag(given: Values, options: _Options, call: Call) -> Echoed:
-    from rosmini.ros.bag import Bag, ROSBagException
-
-    check_bag(given.bag)
-    echoer = _Echo(given, options, call, None)
-    wanted, looked_at = options.topic, ""
-    try:
-        with Bag(given.bag, numpy=False) as bag:
-            for name, message, when in bag.read_messages():
-                topic = global_name(name)
-                if not given.all_topics and topic != wanted and not wanted.startswith(f"{topic}/"):
-                    continue
-                if topic != looked_at:
-                    looked_at = topic
-                    echoer.look_at(message._type, wanted[len(topic) :] if wanted else "")
-                echoer.hear(topic, message, when)
-                if echoer.is_done:
-                    break
-    except ROSBagException as error:
-        raise VerbError(f"ERROR: unable to use bag file: {error}") from error
-    return echoer.result()
-
-
 class _Echo:
     """Prints messages according to the options."""
 
-    def __init__(self, given: Values, options: _Options, call: Call, node: Node | None) -> None:
+    def __init__(self, given: Values, options: _Options, call: Call, node: Node) -> None:
         from rosmini.ros.introspection.fields import chosen
 
         self.call = call
@@ -176,7 +144,7 @@ class _Echo:
             raise self._problem
         return Echoed(messages=tuple(self._kept))
 
-    def hear(self, topic: str, message: Any, when: Time | None = None) -> None:
+    def hear(self, topic: str, message: Any) -> None:
         """Print a message if it is selected."""
         from rosmini.core.expressions import ExpressionError
         from rosmini.ros.introspection.fields import FieldError
@@ -195,7 +163,7 @@ class _Echo:
             return
         self.count += 1
         try:
-            self._print(value, when)
+            self._print(value)
         except BrokenPipeError as error:  # the reader of the output, such as `head`, has ended
             self._end(error)
             return
@@ -209,7 +177,7 @@ class _Echo:
         self.is_done = True
         self._on_done()
 
-    def _print(self, value: Any, when: Time | None) -> None:
+    def _print(self, value: Any) -> None:
         if not self._given.plot:
             self.call.say(f"{self._clear}{self._text(value)}\n---")
             return
@@ -217,8 +185,7 @@ class _Echo:
 
         if self.count == 1:
             self.call.say(title_line(value, self._choose))
-        if when is None:
-            when = value.header.stamp if getattr(type(value), "_has_header", False) else self._now()
+        when = value.header.stamp if getattr(type(value), "_has_header", False) else self._now()
         offset = self._now().to_nsec() if self._given.offset else 0
         self.call.say(f"{when.to_nsec() - offset},{','.join(cells(value, self._choose))}")
 
@@ -234,4 +201,4 @@ class _Echo:
         return strify_message(value, time_offset=offset, fixed_numeric_width=self._options.width)
 
     def _now(self) -> Time:
-        return self.call.graph.now() if self._node is None else self._node.now()
+        return self._node.now()

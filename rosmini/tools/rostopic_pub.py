@@ -1,10 +1,8 @@
-"""``rostopic pub``: publishes messages from YAML on the command line, in a file or on standard input."""
+"""``rostopic pub``: publishes a message from YAML on the command line."""
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass
-from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rosmini.core.errors import (
@@ -18,10 +16,9 @@ from rosmini.core.errors import (
 from rosmini.core.verbs import SECOND, Call, Result, Span, VerbError, add_duration, duration_ns, global_name, tool_node
 
 from .rostopic_list import parser_of
-from .values import WrongYaml, documents_of, fields_of, fill, listed, parse, typed
+from .values import WrongYaml, fields_of, fill, parse
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from optparse import Values
 
     from rosmini.core.graph import Node, Publisher
@@ -30,12 +27,6 @@ if TYPE_CHECKING:
 
 ONCE_S = 3.0
 """How long a message published once remains available to late subscribers [s]."""
-
-SUBSCRIBER_S = 5.0
-"""How long to wait for a subscriber before publishing messages from a file or standard input [s]."""
-
-RATE_HZ = 10.0
-"""Rate of publishing messages from a file or standard input [Hz]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,10 +44,9 @@ def pub_parser() -> Parser:
     parser = parser_of("pub /topic type [args...]", text, example)
     add = parser.add_option
     parser.flag("-v", dest="verbose", help="print what is published")
-    add("-r", "--rate", metavar="RATE", help="so many messages a second (10 from a file or standard input)")
+    add("-r", "--rate", metavar="RATE", help="so many messages a second")
     parser.flag("-1", "--once", dest="once", help="publish one message and end")
-    add("-f", "--file", metavar="FILE", help="messages from a YAML file, with --- between them")
-    parser.flag("-l", "--latch", dest="latch", help="with -r, -f or standard input: latch, for late subscribers")
+    parser.flag("-l", "--latch", dest="latch", help="with -r: latch, for late subscribers")
     parser.flag("-s", "--substitute-keywords", dest="substitute", help="with -r: fill in now and auto each time anew")
     parser.flag("--use-rostime", dest="use_rostime", help="the time of /clock for now and auto, if there is one")
     add_duration(parser)
@@ -89,8 +79,6 @@ def _wish(given: Values) -> _Wish:
     if len(given.words) == 1:
         usage.error("topic type must be specified")
     topic, kind, *texts = given.words
-    if texts and given.file:
-        usage.error("args conflict with -f setting")
     try:
         values = [parse(text) for text in texts]
     except WrongYaml as error:
@@ -102,21 +90,18 @@ def pub(given: Values, call: Call) -> Published:
     """Publish messages."""
     wish = _wish(given)
     cls = _class_of(wish.type)
-    if not wish.values and cls.__slots__ and not given.file and (call.read_line is None or sys.stdin.isatty()):
+    if not wish.values and cls.__slots__:
         pub_parser().error(f"Please specify message values\nA {wish.type} has the fields: {fields_of(cls)}")
     with tool_node(call.graph) as node:
         try:
             publisher = node.publisher(wish.topic, cls, queue_size=100, latch=wish.rate is None or given.latch)
-            work = _Work(given, wish, call, node, publisher, cls)
-            if wish.values or not cls.__slots__:
-                return work.publish_one(wish.values)
-            return work.publish_all(_in_file(given.file) if given.file else typed(call))
+            return _Work(given, wish, call, node, publisher, cls).publish(wish.values)
         except SerializationError as error:
             raise VerbError(
                 f"ERROR: Unable to publish message. One of the fields has an incorrect type:\n  {error}\n\n"
                 f"msg file:\n{cls._full_text.partition(chr(10) + '====')[0].strip()}"
             ) from error
-        except (TypeMismatch, WrongYaml) as error:
+        except TypeMismatch as error:
             raise VerbError(f"ERROR: {error}") from error
 
 
@@ -134,20 +119,6 @@ def _class_of(kind: str) -> Any:
         ) from error
 
 
-def _in_file(path: str) -> Iterator[Any]:
-    """Yield the documents of a YAML file. Raises ``VerbError``."""
-    from pathlib import Path
-
-    if not Path(path).is_file():
-        raise VerbError(f"ERROR: file does not exist: {path}")
-    try:
-        yield from documents_of(Path(path).read_text(encoding="utf-8"), path)
-    except WrongYaml as error:
-        raise VerbError(f"ERROR: invalid YAML in file: {error}") from error
-    except UnicodeDecodeError as error:
-        raise VerbError(f"ERROR: invalid YAML in file: {path} is not UTF-8 text") from error
-
-
 class _Work:
     """Publishes messages according to the options."""
 
@@ -157,53 +128,23 @@ class _Work:
         if wish.rate is not None:
             publisher.expect_nobody()  # what is repeated will be heard
         self._count = 0
-        self._last: Any = None
 
     def _span(self, duration_ns: int | None) -> Span:
         return Span.of(self._call.graph, duration_ns)
 
-    def _result(self) -> Published:
-        return Published(count=self._count, message=self._last)
-
-    def publish_one(self, values: list[Any]) -> Published:
-        """Publish one message: once, latched, or repeatedly."""
+    def publish(self, values: list[Any]) -> Published:
+        """Publish a message: once, latched, or repeatedly."""
         message = self._filled(self._class(), values)
         is_brief = self._given.once and self._given.duration is None
         duration = round(ONCE_S * SECOND) if is_brief else duration_ns(self._given, self._call)
         if self._rate is not None:
             self._repeat(message, values, self._rate, duration)
-            return self._result()
-        self._say_latched(message, brief=self._given.once)
-        self._send(message)
-        self._stay(duration)
-        return self._result()
-
-    def publish_all(self, messages: Iterator[Any]) -> Published:
-        """Publish the messages of a file or of standard input one after another."""
-        rate = self._rate
-        if rate is None and not self._given.latch and not self._given.once:
-            rate = RATE_HZ
-        self._await_subscriber()
-        if self._given.file and rate is not None:
-            first, second = next(messages, None), next(messages, None)
-            if first is not None and second is None:
-                self._call.say("Got one message and a rate, publishing repeatedly")
-                values = listed(first)
-                message = self._filled(self._class(), values)
-                self._repeat(message, values, rate, duration_ns(self._given, self._call))
-                return self._result()
-            messages = chain((first, second), messages)
-        for value in messages:
-            if value is None or self._node.is_shutdown():
-                continue
-            message = self._filled(self._class(), listed(value))
-            self._say_latched(message, brief=rate is not None or self._given.once)
+        else:
+            what = f"publishing and latching [{message}]" if self._given.verbose else "publishing and latching message"
+            self._call.say(what + (f" for {ONCE_S} seconds" if self._given.once else ". Press ctrl-C to terminate"))
             self._send(message)
-            if self._given.once:
-                self._stay(round(ONCE_S * SECOND))
-                break
-            self._stay(duration_ns(self._given, self._call) if rate is None else round(SECOND / rate))
-        return self._result()
+            self._span(duration).wait(self._node, "Ctrl-C", lambda _: None)
+        return Published(count=self._count, message=message)
 
     def _repeat(self, message: Any, values: list[Any], rate: float, duration: int | None) -> None:
         self._announce(message)
@@ -220,22 +161,9 @@ class _Work:
         if self._given.verbose:
             self._call.say(f"publishing {message}")
 
-    def _say_latched(self, message: Any, *, brief: bool) -> None:
-        what = f"publishing and latching [{message}]" if self._given.verbose else "publishing and latching message"
-        self._call.say(what + (f" for {ONCE_S} seconds" if brief else ". Press ctrl-C to terminate"))
-
     def _send(self, message: Any) -> None:
         self._publisher.publish(message)
         self._count += 1
-        self._last = message
-
-    def _stay(self, duration: int | None) -> None:
-        self._span(duration).wait(self._node, "Ctrl-C", lambda _: None)
-
-    def _await_subscriber(self) -> None:
-        for _ in self._span(round(SUBSCRIBER_S * SECOND)).every(SECOND // 100):
-            if self._publisher.num_connections():
-                return
 
     def _filled(self, message: Any, values: list[Any]) -> Any:
         """Return the message filled with values. Raises ``VerbError``."""

@@ -28,7 +28,6 @@ def _parser() -> ArgumentParser:
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("package", nargs="?", help="the name of a package")
     what.add_argument("-d", "--distro", action="store_true", help="the name of the distribution")
-    what.add_argument("-a", "--all", action="store_true", help="all packages and their versions")
     return parser
 
 
@@ -44,8 +43,6 @@ def _version(given: argparse.Namespace, _call: Call) -> Lines:
     if given.distro:
         return Lines(lines=(os.environ.get("ROS_DISTRO") or DISTRIBUTION,), end=end)
     index = PackageIndex()
-    if given.all:
-        return Lines(lines=tuple(f"{name}: {version(name, index)}" for name in index.names()), end=end)
     try:
         return Lines(lines=(version(given.package, index),), end=end)
     except UnknownPackage:

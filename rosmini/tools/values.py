@@ -1,4 +1,4 @@
-"""Message values in YAML on a command line or standard input, for ``rostopic pub`` and ``rosservice call``."""
+"""Message values in YAML on a command line, for ``rostopic pub`` and ``rosservice call``."""
 
 from __future__ import annotations
 
@@ -7,10 +7,7 @@ from typing import TYPE_CHECKING, Any
 from rosmini.core.errors import RosminiError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from rosmini.core.time import Time
-    from rosmini.core.verbs import Call
 
 
 class WrongYaml(RosminiError):
@@ -19,40 +16,12 @@ class WrongYaml(RosminiError):
 
 def parse(text: str) -> Any:
     """Return the value of a YAML text. Raises ``WrongYaml``."""
-    return next(iter(documents_of(text, "this argument")), None)
-
-
-def documents_of(text: str, source: str) -> Iterator[Any]:
-    """Yield the values of the documents in a YAML text; errors name ``source``. Raises ``WrongYaml``."""
     from rosmini.core.yaml_text import documents
 
     def failure(message: str, where: str, line: int | None) -> WrongYaml:
         return WrongYaml(f"{where}{'' if line is None else f', line {line}'}: {message}")
 
-    for value, _ in documents(text, source, failure):
-        yield value
-
-
-def typed(call: Call) -> Iterator[Any]:
-    """Yield the values on standard input, each ended by ---; warn of invalid YAML."""
-    read, text = call.read_line, ""
-    while read is not None and (line := call.graph.scheduler.in_thread(read)):
-        if line.strip() != "---":
-            text += line
-            continue
-        try:
-            value = parse(text)
-        except WrongYaml as error:
-            call.warn(f"Invalid YAML: {error}")
-        else:
-            if value is not None:
-                yield value
-        text = ""
-
-
-def listed(value: Any) -> list[Any]:
-    """Return a value as a list of arguments."""
-    return value if isinstance(value, list) else [value]
+    return next((value for value, _ in documents(text, "this argument", failure)), None)
 
 
 def fields_of(message: Any) -> str:

@@ -14,23 +14,15 @@ if TYPE_CHECKING:
     from rosmini.viz.byte_maps import byte_map
     from rosmini.viz.galleries import grid
     from rosmini.viz.image_pictures import image_picture
-    from rosmini.viz.launch_trees import launch_tree
     from rosmini.viz.parameter_trees import parameter_tree
     from rosmini.viz.plots import plot
-    from rosmini.viz.recording_pictures import recording_picture, recording_plots
     from rosmini.viz.rqt.bag import rqt_bag
-    from rosmini.viz.rqt.console import rqt_console
-    from rosmini.viz.rqt.definitions import rqt_action, rqt_msg, rqt_srv
     from rosmini.viz.rqt.graph import rqt_graph
     from rosmini.viz.rqt.graph_state import GraphState
-    from rosmini.viz.rqt.plot import rqt_plot
-    from rosmini.viz.rqt.topics import rqt_topic
     from rosmini.viz.scan_pictures import scan_picture
     from rosmini.viz.sequences import sequence_diagram
-    from rosmini.viz.simulation_pictures import simulation_picture
     from rosmini.viz.state_machine import action_states
     from rosmini.viz.track_pictures import track_picture
-    from rosmini.viz.urdf_trees import urdf_tree
     from rosmini.viz.world_pictures import world_picture
 
 __all__ = [
@@ -42,52 +34,30 @@ __all__ = [
     "byte_map",
     "grid",
     "image_picture",
-    "launch_tree",
     "matplotlib_picture",
     "parameter_tree",
     "plot",
-    "recording_picture",
-    "recording_plots",
-    "rqt_action",
     "rqt_bag",
-    "rqt_console",
     "rqt_graph",
-    "rqt_msg",
-    "rqt_plot",
-    "rqt_srv",
-    "rqt_topic",
     "scan_picture",
     "sequence_diagram",
-    "simulation_picture",
     "track_picture",
-    "urdf_tree",
     "world_picture",
 ]
 
 _LATER = {
     "GraphState": "rosmini.viz.rqt.graph_state",
-    "rqt_console": "rosmini.viz.rqt.console",
     "rqt_graph": "rosmini.viz.rqt.graph",
-    "rqt_action": "rosmini.viz.rqt.definitions",
-    "rqt_srv": "rosmini.viz.rqt.definitions",
-    "rqt_msg": "rosmini.viz.rqt.definitions",
-    "rqt_topic": "rosmini.viz.rqt.topics",
-    "rqt_plot": "rosmini.viz.rqt.plot",
     "action_states": "rosmini.viz.state_machine",
     "byte_map": "rosmini.viz.byte_maps",
     "grid": "rosmini.viz.galleries",
     "image_picture": "rosmini.viz.image_pictures",
-    "launch_tree": "rosmini.viz.launch_trees",
     "parameter_tree": "rosmini.viz.parameter_trees",
     "plot": "rosmini.viz.plots",
-    "recording_picture": "rosmini.viz.recording_pictures",
-    "recording_plots": "rosmini.viz.recording_pictures",
     "rqt_bag": "rosmini.viz.rqt.bag",
     "scan_picture": "rosmini.viz.scan_pictures",
     "sequence_diagram": "rosmini.viz.sequences",
-    "simulation_picture": "rosmini.viz.simulation_pictures",
     "track_picture": "rosmini.viz.track_pictures",
-    "urdf_tree": "rosmini.viz.urdf_trees",
     "world_picture": "rosmini.viz.world_pictures",
 }
 

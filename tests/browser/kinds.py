@@ -26,13 +26,13 @@ from rosmini.viz import (
     scan_picture,
     sequence_diagram,
     track_picture,
-    urdf_tree,
     world_picture,
 )
 from rosmini.viz.rviz import Scene
 from rosmini.viz.rviz.picture import still
 from rosmini.viz.tf_trees import tf_tree
 from rosmini.viz.turtle_pictures import turtle_picture
+from rosmini.viz.urdf_trees import urdf_tree
 
 SYSTEM = [
     [["/chatter", ["/talker"]], ["/scan", ["/robot"]]],

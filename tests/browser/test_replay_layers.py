@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from rosmini.sim.logo import Logo
-from rosmini.viz.replay import Body, Grid, Grids, Run, Scans, Shape, Shapes, Stroke, Strokes, replay
+from rosmini.viz.replay import Body, Grid, Grids, Run, Shape, Shapes, Stroke, Strokes, replay
+from rosmini.viz.replay.layers import Scans
 
 pytestmark = pytest.mark.browser
 

@@ -14,7 +14,10 @@ from rosmini.msgs.std_msgs.msg import String
 from rosmini.msgs.std_srvs.srv import SetBool
 from rosmini.viz.embed import STATIC
 from rosmini.viz.live.panel_link import SCRIPTS, PanelLink
-from rosmini.viz.rqt import DynamicReconfigure, LogConsole, LoggerLevel, MessagePublisher, NodeGraph, ServiceCaller
+from rosmini.viz.rqt import DynamicReconfigure, MessagePublisher, ServiceCaller
+from rosmini.viz.rqt.console import LogConsole
+from rosmini.viz.rqt.graph import NodeGraph
+from rosmini.viz.rqt.logger_level import LoggerLevel
 
 pytestmark = pytest.mark.browser
 

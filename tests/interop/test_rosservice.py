@@ -73,13 +73,6 @@ def test_errors_begin_as_the_real_ones(tools: Tools, line: str) -> None:
     assert ours.stderr.startswith(re.sub(r"b'(.*)'$", r"\1", real.stderr, flags=re.MULTILINE))
 
 
-def test_requests_on_standard_input(tools: Tools) -> None:
-    requests = "".join(f"camera_info: {{width: {number}}}\n---\n" for number in (1, 2))
-    real, ours = tools.both("rosservice call /robot1/info", stdin=requests + "camera_info: {width: 3}\n")
-    assert (ours.stdout, ours.returncode) == (real.stdout, real.returncode)
-    assert '"2"' in ours.stdout
-
-
 def test_no_master(tools: Tools) -> None:
     uri = f"http://127.0.0.1:{free_port()}"
     real, ours = tools.both("rosservice list", env={"ROS_MASTER_URI": uri})

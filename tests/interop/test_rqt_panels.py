@@ -5,7 +5,11 @@ from __future__ import annotations
 import pytest
 
 from rosmini.ros.net.connecting import connect
-from rosmini.viz.rqt import LoggerLevel, MessagePublisher, NodeGraph, Plot, ServiceCaller, TopicMonitor
+from rosmini.viz.rqt import MessagePublisher, ServiceCaller
+from rosmini.viz.rqt.graph import NodeGraph
+from rosmini.viz.rqt.logger_level import LoggerLevel
+from rosmini.viz.rqt.plot import Plot
+from rosmini.viz.rqt.topics import TopicMonitor
 
 from ..processes import start, wait_until
 from .conftest import SYSTEM_PYTHON

@@ -10,10 +10,7 @@ from typing import Any
 import pytest
 
 import rosmini.tools.main as cli
-from rosmini.core.time import Time
 from rosmini.core.verbs import VerbError
-from rosmini.msgs.geometry_msgs.msg import PoseStamped
-from rosmini.ros.bag import Bag
 from rosmini.tools import rosmsg, rossrv
 
 from .transcripts import assert_golden, printed, read
@@ -72,24 +69,6 @@ def test_the_results_are_data(tmp_path: Path) -> None:
     assert "\n" not in str(run("rosmsg packages -s"))
     assert run("rosmsg show -r std_msgs/Empty").definitions["std_msgs/Empty"].startswith("#")
     assert run("rossrv show -r std_srvs/SetBool").definitions["std_srvs/SetBool"].count("---\n") == 1
-
-
-def test_the_definition_in_a_bag(tmp_path: Path) -> None:
-    path = tmp_path / "t.bag"
-    with Bag(path, "w") as bag:
-        bag.write("/pose", PoseStamped(), Time(1))
-    assert str(run(f"rosmsg show -b {path} geometry_msgs/PoseStamped")) == str(
-        run("rosmsg show geometry_msgs/PoseStamped")
-    )
-    raw = str(run(f"rosmsg info -r --bag {path} geometry_msgs/PoseStamped"))
-    assert "MSG: std_msgs/Header" in raw
-    with pytest.raises(VerbError, match="did you mean geometry_msgs/PoseStamped"):
-        run(f"rosmsg show -b {path} geometry_msgs/PoseStampd")
-    with pytest.raises(VerbError, match="does not exist"):
-        run(f"rosmsg show -b {tmp_path}/none.bag std_msgs/String")
-    (tmp_path / "no.bag").write_text("nothing", encoding="utf-8")
-    with pytest.raises(VerbError, match="ERROR: "):
-        run(f"rosmsg show -b {tmp_path}/no.bag std_msgs/String")
 
 
 def test_an_md5_sum_of_nothing() -> None:

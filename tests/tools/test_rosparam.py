@@ -128,18 +128,6 @@ def test_what_is_done_is_said(graph: Graph, tmp_path: Path) -> None:
     assert run(graph, "list").names == ()
 
 
-def test_the_content_of_files(graph: Graph, tmp_path: Path) -> None:
-    (tmp_path / "t.txt").write_bytes(b"hello\nworld\n")
-    (tmp_path / "b.bin").write_bytes(b"\xff\x00")
-    run(graph, "set", "/t", "-t", tmp_path / "t.txt")
-    run(graph, "set", "-b", tmp_path / "b.bin", "/b")
-    assert str(run(graph, "get", "-p", "/t")) == "hello\nworld\n"
-    assert run(graph, "get", "/b").value == b"\xff\x00"
-    assert "!!binary" in str(run(graph, "get", "/b"))
-    with pytest.raises(VerbError, match="not UTF-8 text; -b"):
-        run(graph, "set", "/t", "-t", tmp_path / "b.bin")
-
-
 def test_the_terminal_reads_standard_input(graph: Graph) -> None:
     verb = TOOL.verbs["load"]
     stdin = io.StringIO("k: 1\nm: {n: 2}\n")

@@ -246,17 +246,6 @@ def test_what_a_build_made_is_found_and_a_program_is_run_as_itself(workspace: Pa
     assert "all is there" in checked.stdout
 
 
-def test_a_script_that_a_robot_would_not_start_is_started_and_told(session: Session) -> None:
-    script = session.folder / "src" / "speaking" / "scripts" / "failing.py"
-    script.chmod(0o644)
-    script.write_text(FAILING.partition("\n")[2], encoding="utf-8")
-    done = run([*ROSMINI, "rosrun", "speaking", "failing.py"], env=session.env)
-    assert (done.returncode, done.stdout) == (7, "[]\n")
-    first, second = done.stderr.splitlines()
-    assert f"{script}:1: the first line does not say how to run it" in first
-    assert f"chmod +x {script}. It runs here, and not on a robot" in second
-
-
 def test_a_prefix_is_put_before_the_command(session: Session) -> None:
     words = ("speaking", "failing.py", "-x", "a:=b")
     done = run([*ROSMINI, "rosrun", "--prefix", "env A=1", "-d", *words], env=session.env)

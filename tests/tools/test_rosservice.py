@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import io
 import re
 from collections.abc import Iterator
-from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 import rosmini.tools.main as cli
 from rosmini import Graph
-from rosmini.core.verbs import Call, Result, VerbError
+from rosmini.core.verbs import VerbError
 from rosmini.msgs.nav_msgs.srv import GetPlan
 from rosmini.msgs.std_srvs.srv import Empty, SetBool, Trigger
 from rosmini.tools.rosservice import TOOL
@@ -168,24 +166,6 @@ def test_waiting_for_a_service_that_comes_later(graph: Graph) -> None:
     node = graph.node("late")
     node.timer(2.0, lambda _: node.service("later", Trigger, lambda _: (True, "here")), oneshot=True)
     assert run(graph, "call", "--wait", "/later").response.message == "here"
-
-
-def test_requests_on_standard_input(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> None:
-    said: list[str] = []
-    stdin = io.StringIO("data: true\n---\ndata: {\n---\n[false]\n---\ndata: true\n")
-    monkeypatch.setattr("sys.stdin", SimpleNamespace(isatty=lambda: False))
-    warned: list[str] = []
-    call = Call(graph, said.append, warned.append, stdin.readline)
-
-    def act(*words: str) -> Result:
-        verb = TOOL.verbs["call"]
-        return verb.act(verb.parser().parse(words), call)
-
-    last = act("/set_bool")
-    assert said == ['success: True\nmessage: "got True"']
-    assert str(last) == 'success: False\nmessage: "got False"'  # what has no --- behind it is not sent, as in ROS
-    assert len(warned) == 1 and warned[0].startswith("Invalid YAML")
-    assert str(act("/set_bool")) == ""
 
 
 def test_what_is_refused(graph: Graph) -> None:

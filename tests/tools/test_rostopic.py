@@ -5,17 +5,14 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
 
 import rosmini.tools.main as cli
 from rosmini import Graph
-from rosmini.core.time import Time
 from rosmini.core.verbs import VerbError
 from rosmini.msgs.std_msgs.msg import String
-from rosmini.ros.bag import Bag
 from rosmini.tools.rostopic import TOOL
 
 from ..processes import free_port
@@ -38,7 +35,7 @@ def run(graph: Graph, *words: object) -> Any:
 
 EXACT = [
     "rostopic list", "rostopic list -p", "rostopic list -s", "rostopic list /nope", "rostopic list -v /chatter",
-    "rostopic list --host", "rostopic info /chatter", "rostopic type /chatter", "rostopic type /chatter/data",
+    "rostopic info /chatter", "rostopic type /chatter", "rostopic type /chatter/data",
     "rostopic find std_msgs/String", "rostopic find nope/Nope",
 ]  # fmt: skip
 
@@ -109,22 +106,6 @@ def test_the_results_are_data(graph: Graph) -> None:
 def test_a_field_that_messages_do_not_have(graph: Graph) -> None:
     with pytest.raises(VerbError, match="messages on /scan are sensor_msgs/LaserScan and have no rangs; did you mean"):
         run(graph, "type", "/scan/rangs")
-
-
-def test_topics_of_a_bag(tmp_path: Path) -> None:
-    path = tmp_path / "t.bag"
-    with Bag(path, "w") as bag:
-        for number, topic in enumerate(("/b", "/a", "/a/deep", "/b")):
-            bag.write(topic, String("x"), Time(100 + number))
-    with Graph() as graph:
-        assert run(graph, "list", "-b", path).names == ("/b", "/a", "/a/deep")
-        inside = run(graph, "list", "-b", path, "/a")
-        assert (inside.count, inside.span) == (2, (101.0, 102.0))
-        assert str(inside).startswith("2 message(s) from ")
-        with pytest.raises(VerbError, match=r"nothing of /c is in .*, but of /a, /a/deep, /b"):
-            run(graph, "list", "-b", path, "/c")
-        with pytest.raises(VerbError, match="does not exist"):
-            run(graph, "list", "-b", tmp_path / "none.bag")
 
 
 def test_a_tool_that_only_asks_starts_without_a_graph() -> None:

@@ -6,7 +6,6 @@ import re
 import shlex
 from collections.abc import Iterator
 from contextlib import suppress
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -21,7 +20,6 @@ from rosmini.msgs.nav_msgs.msg import Odometry
 from rosmini.msgs.nav_msgs.msg import Path as PathMessage
 from rosmini.msgs.sensor_msgs.msg import Image, LaserScan
 from rosmini.msgs.std_msgs.msg import String
-from rosmini.ros.bag import Bag
 from rosmini.ros.introspection.fields import FieldError, field_type, reader
 from rosmini.tools.rostopic import TOOL
 
@@ -175,25 +173,6 @@ def test_a_type_that_is_not_known_here(graph: Graph) -> None:
     graph.ask_as("/far").ask("registerPublisher", "/odd", "their_pkg/Odd", "http://127.0.0.1:1/")
     with pytest.raises(VerbError, match=r"Cannot load message class for \[their_pkg/Odd\]. Are your messages built?"):
         echo(graph, "/odd")
-
-
-def test_messages_of_a_bag(tmp_path: Path) -> None:
-    path = tmp_path / "t.bag"
-    with Bag(path, "w") as bag:
-        for number in range(3):
-            bag.write("/chatter", String(f"hello {number}"), Time(100 + number, 5))
-        bag.write("/scan", scan(), Time(200))
-    with Graph() as graph:
-        text, _ = echo(graph, f"-b {path} -p /chatter")
-        assert text.splitlines() == ["%time,field.data", *(f"{100 + n}000000005,hello {n}" for n in range(3))]
-        assert echo(graph, f"-b {path} -n 1 /scan/ranges[:2]")[1].messages == ((1.0, 2.0),)
-        assert len(echo(graph, f"-b {path} -a --filter \"topic == '/chatter'\"")[1].messages) == 3
-        assert echo(graph, f"-b {path} -a")[0].count("---\n") == 4
-        with pytest.raises(VerbError, match="does not exist"):
-            echo(graph, f"-b {path}.none /chatter")
-        path.write_bytes(b"no bag")
-        with pytest.raises(VerbError, match="unable to use bag file"):
-            echo(graph, f"-b {path} /chatter")
 
 
 def test_in_a_terminal_nothing_is_kept_and_the_screen_is_cleared(graph: Graph) -> None:

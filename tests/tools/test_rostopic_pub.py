@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import io
 import shlex
-import sys
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
 
 import rosmini.tools.main as cli
 from rosmini import Graph
-from rosmini.core.verbs import Call, VerbError
+from rosmini.core.verbs import VerbError
 from rosmini.msgs import message_class
 from rosmini.tools.rostopic import TOOL
 
@@ -121,48 +118,6 @@ def test_an_alias_bomb_is_refused(graph: Graph) -> None:
     levels += [f"{new}: &{new} [{', '.join([f'*{old}'] * 9)}]" for old, new in zip("abcdefg", "bcdefgh", strict=True)]
     with pytest.raises(Exception, match="values with its aliases"):
         TOOL.run("pub", "/t", "std_msgs/String", "\n".join(levels), graph=graph)
-
-
-# -- files and standard input ----------------------------------------------------------------------------------------
-
-
-def test_messages_of_a_file(graph: Graph, tmp_path: Path) -> None:
-    heard = ear(graph, "/t", "std_msgs/String")
-    path = tmp_path / "m.yaml"
-    path.write_text("data: one\n---\ndata: two\n---\n['three']\n", encoding="utf-8")
-    text, _, result = pub(graph, f"-f {path} /t std_msgs/String")
-    assert [message.data for _, message in heard] == ["one", "two", "three"]
-    assert heard[1][0].to_sec() - heard[0][0].to_sec() == pytest.approx(0.1)
-    assert text == "publishing and latching message for 3.0 seconds\n" * 3
-    assert result.count == 3
-    path.write_text("data: again\n", encoding="utf-8")
-    text, _, result = pub(graph, f"-f {path} -r 4 --duration 1 /t std_msgs/String")
-    assert text == "Got one message and a rate, publishing repeatedly\n"
-    assert result.count == 5
-    assert pub(graph, f"-1 -f {path} /t std_msgs/String")[2].count == 1
-
-
-def test_files_that_are_wrong(graph: Graph, tmp_path: Path) -> None:
-    path = tmp_path / "m.yaml"
-    assert "ERROR: file does not exist" in pub(graph, f"-f {path} /t std_msgs/String")[0]
-    path.write_text("data: one\n---\ndata: [", encoding="utf-8")
-    assert "ERROR: invalid YAML in file" in pub(graph, f"-f {path} /t std_msgs/String")[0]
-    path.write_bytes(b"data: \xff\xfe")
-    assert "not UTF-8" in pub(graph, f"-f {path} /t std_msgs/String")[0]
-
-
-def test_messages_from_standard_input(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> None:
-    heard = ear(graph, "/t", "std_msgs/String")
-    monkeypatch.setattr(sys, "stdin", io.StringIO())
-    said: list[str] = []
-    lines = io.StringIO("data: one\n---\n{wrong\n---\ndata: two\n---\ndata: not ended\n")
-    verb = TOOL.find("pub")
-    result = verb.act(
-        verb.parser().parse(["/t", "std_msgs/String"]), Call(graph, said.append, said.append, lines.readline)
-    )
-    assert [message.data for _, message in heard] == ["one", "two"]
-    assert vars(result)["count"] == 2
-    assert [text for text in said if text.startswith("Invalid YAML")] != []
 
 
 def test_values_below_zero_come_after_two_dashes(capsys: pytest.CaptureFixture[str]) -> None:

@@ -15,7 +15,8 @@ from rosmini.core.geometry.poses import arc, compose
 from rosmini.sim.models import BURGER, model
 from rosmini.sim.recording import Moved, Recording
 from rosmini.sim.worlds import world
-from rosmini.viz import ViewError, recording_picture, recording_plots, style
+from rosmini.viz import ViewError, style
+from rosmini.viz.recording_pictures import recording_picture, recording_plots
 
 TIMES = np.linspace(0, 10, 301)
 

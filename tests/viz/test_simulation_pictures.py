@@ -15,7 +15,8 @@ from rosmini.sim.recorder import Recorder
 from rosmini.sim.simulator import Simulator
 from rosmini.sim.stage.node import Stageros
 from rosmini.sim.world import Cylinder, Obstacle, Walk, World
-from rosmini.viz import simulation_picture, style
+from rosmini.viz import style
+from rosmini.viz.simulation_pictures import simulation_picture
 
 Twist = message_class("geometry_msgs/Twist")
 

@@ -61,7 +61,6 @@ class Amcl:
         prepare(node)
         self.node = node
         self.parameters = self._with_known_models(AmclParameters.read(node))
-        self._warn_of_prefix()
         random = node.graph.rng(f"{node.name}/particles")
         self.localizer = Localizer(self.parameters, random)
         self.buffer = Buffer(node)
@@ -111,14 +110,6 @@ class Amcl:
         node.timer(DIAGNOSTICS_PERIOD, self._diagnose)
         if self.parameters.save_pose_rate > 0:
             node.on_shutdown(self._save_pose)
-
-    def _warn_of_prefix(self) -> None:
-        name = self.node.search_param("tf_prefix")
-        if name is not None and self.node.get_param(name):
-            self.node.logwarn(
-                f"the parameter {name} is set, but amcl ignores it (as in Noetic, tf2 has no prefixes): "
-                "write the prefix into ~odom_frame_id, ~base_frame_id and ~global_frame_id"
-            )
 
     # -- parameters ----------------------------------------------------------------------------------------------
 

@@ -6,7 +6,7 @@ It does the work of `LocalPlannerUtil`, `OdometryHelperRos`, `MapGridVisualizer`
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -194,13 +194,6 @@ def rename(node: Node, label: str, old: str, new: str) -> None:
     if not node.has_param(label + new):
         node.logwarn(f"Parameter {old} is deprecated. Please use the name {new} instead.")
         node.set_param(label + new, node.get_param(label + old))
-
-
-def ignore(node: Node, label: str, names: Iterable[str], whose: str) -> None:
-    """Warn of parameters that this planner does not read, although files for real robots contain them."""
-    for name in names:
-        if node.has_param(label + name):
-            node.logwarn(f"parameter {node.resolve_parameter(label + name)} is not read by this planner: {whose}")
 
 
 def no_command(text: str, samples: Samples) -> NoValidCommand:

@@ -15,7 +15,7 @@ from rosmini.core.parameters import parameter
 from rosmini.core.tf import Buffer
 from rosmini.navigation.nav_core import BaseLocalPlanner, planar_pose
 
-from .following import Following, OdometryHelper, Publications, ignore, no_command, rename, sim_period, twist
+from .following import Following, OdometryHelper, Publications, no_command, rename, sim_period, twist
 from .goal_functions import turn_to_goal
 from .latched_stop_rotate import LatchedStopRotate
 from .limits import LocalPlannerLimits
@@ -36,16 +36,6 @@ RENAMED = {
 }
 """Names from earlier releases, which are still accepted."""
 
-MISSPELT = {"acc_limit_x": "acc_lim_x", "acc_limit_y": "acc_lim_y", "acc_limit_th": "acc_lim_th"}
-"""Names that were wrong in early documentation; as in ROS they are ignored with an error message."""
-
-NOT_READ = (
-    *(each.name for each in fields(LocalPlannerLimits)),
-    *("forward_point_distance", "scaling_speed", "max_scaling_factor", "vy_samples", "vth_samples", "use_dwa"),
-    *("twirling_scale", "oscillation_reset_angle", "publish_traj_pc", "cheat_factor", "penalize_negative_x"),
-    *("max_trans_vel", "min_trans_vel", "max_rot_vel", "min_rot_vel", "rot_stopped_vel", "acc_limit_trans"),
-)
-
 
 @dataclass(frozen=True)
 class TrajectoryPlannerSettings(TrajectoryPlannerParameters):
@@ -64,9 +54,8 @@ class TrajectoryPlannerSettings(TrajectoryPlannerParameters):
     publish_cost_grid_pc: bool = parameter(False, "publish the cost of each cell")
     global_frame_id: str = parameter("odom", "not used: clouds are in the costmap's frame")
     odom_topic: str = parameter("odom", "the topic of the odometry")
-    backup_vel: float | None = parameter(None, "the former name of escape_vel", unit="m/s")
 
-    allowed = (*RENAMED, *MISSPELT, *NOT_READ, "point_grid")
+    allowed = tuple(RENAMED)
 
 
 class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/TrajectoryPlannerROS"):
@@ -79,10 +68,10 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
         """Read the parameters, advertise the topics, and subscribe to the odometry."""
         super().initialize(name, buffer, costmap)
         self.node, label = costmap.node, f"~{name}/"
-        self._convert_names(label)
+        for old, new in RENAMED.items():
+            rename(self.node, label, old, new)
         settings = TrajectoryPlannerSettings.read(self.node, label)
         self._settings = settings
-        self._warn_of_settings(settings, label)
         self.publications = Publications(self.node, name, costmap.global_frame)
         self.following = Following(buffer, costmap)
         dynamic = {each.name: getattr(settings, each.name) for each in fields(TrajectoryPlannerParameters)}
@@ -94,45 +83,6 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
         self._reached = False
         self._initial_config: dict[str, Any] | None = None
         self._server = Server(self.node, TrajectoryPlannerParameters, self._reconfigure, namespace=label)
-
-    def _convert_names(self, label: str) -> None:
-        node = self.node
-        for old, new in RENAMED.items():
-            rename(node, label, old, new)
-        for old, new in MISSPELT.items():
-            if node.has_param(label + old):
-                node.logerr(
-                    f"You are using {old} where you should be using {new}. Please change your configuration files "
-                    "appropriately. The documentation used to be wrong on this, sorry for any confusion."
-                )
-        known = {each.name for each in fields(TrajectoryPlannerSettings)}
-        ignore(node, label, [name for name in NOT_READ if name not in known], "it belongs to DWAPlannerROS")
-        ignore(node, label, ["point_grid"], "it belonged to another world_model")
-        velocities = node.get_param(label + "y_vels", "")
-        if isinstance(velocities, list):
-            node.set_param(label + "y_vels", ",".join(map(str, velocities)))
-        backup = node.get_param(label + "backup_vel", None)
-        if backup is not None:
-            node.logwarn(
-                "The backup_vel parameter has been deprecated in favor of the escape_vel parameter. To switch, just "
-                "change the parameter name in your configuration files."
-            )
-            if not node.has_param(label + "escape_vel"):
-                node.set_param(label + "escape_vel", backup)
-
-    def _warn_of_settings(self, settings: TrajectoryPlannerSettings, label: str) -> None:
-        if settings.escape_vel >= 0:
-            self.node.logwarn(
-                "You've specified a positive escape velocity. This is probably not what you want and will cause the "
-                "robot to move forward instead of backward. You should probably change your escape_vel parameter to be "
-                "negative"
-            )
-        if not settings.meter_scoring:
-            how = "set to false" if self.node.has_param(label + "meter_scoring") else "not set"
-            self.node.logwarn(
-                f"Trajectory Rollout planner initialized with param meter_scoring {how}. Set it to true to make your "
-                "settings robust against changes of costmap resolution."
-            )
 
     def _reconfigure(self, config: Any, _: int) -> Any:
         names = [each.name for each in fields(TrajectoryPlannerParameters)]

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
 STATIC = ("map_topic", "unknown_cost_value", "lethal_cost_threshold")
-VOXEL = ("origin_z", "z_resolution", "z_voxels", "mark_threshold", "unknown_threshold", "publish_voxel_map")
+VOXEL = ("origin_z", "z_resolution", "z_voxels", "mark_threshold", "unknown_threshold")
 OBSTACLE = ("max_obstacle_height", "raytrace_range", "obstacle_range")
 INFLATION = ("cost_scaling_factor", "inflation_radius")
 

@@ -167,8 +167,6 @@ class VoxelConfig(ObstacleConfig):
 class VoxelParameters(ObstacleParameters, VoxelConfig):
     """All parameters of `costmap_2d::VoxelLayer`."""
 
-    publish_voxel_map: bool = parameter(False, "publish the voxels on voxel_grid")
-
 
 @dataclass(frozen=True)
 class SourceParameters(Parameters):

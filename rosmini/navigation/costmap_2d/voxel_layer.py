@@ -15,7 +15,7 @@ from .layer import Bounds, Window
 from .observations import Observation
 from .obstacle_layer import ObstacleLayer
 from .parameters import VoxelConfig, VoxelParameters
-from .voxels import BITS, UNKNOWN, Columns, compiled_clear_voxels, mark_voxels, marked_count, marked_heights
+from .voxels import BITS, UNKNOWN, Columns, compiled_clear_voxels, mark_voxels, marked_count
 
 
 class VoxelLayer(ObstacleLayer, plugin="costmap_2d::VoxelLayer"):
@@ -31,7 +31,6 @@ class VoxelLayer(ObstacleLayer, plugin="costmap_2d::VoxelLayer"):
         self.size_z = 10
         self.origin_z, self.z_resolution = 0.0, 0.2
         self._mark_threshold, self._unknown_threshold = 0, 15
-        self._grids: Any = None
 
     def on_initialize(self) -> None:
         """Read the parameters, subscribe to the sources, and advertise the topics."""
@@ -40,11 +39,6 @@ class VoxelLayer(ObstacleLayer, plugin="costmap_2d::VoxelLayer"):
             f"{self.namespace}clearing_endpoints", message_class("sensor_msgs/PointCloud"), queue_size=1
         )
         self._ends.expect_nobody()
-        if isinstance(self.settings, VoxelParameters) and self.settings.publish_voxel_map:
-            self._grids = self.node.publisher(
-                f"{self.namespace}voxel_grid", message_class("costmap_2d/VoxelGrid"), queue_size=1
-            )
-            self._grids.expect_nobody()
 
     def _reconfigure(self, config: Any, level: int) -> Any:
         self.size_z, self.origin_z = config["z_voxels"], config["origin_z"]
@@ -72,12 +66,6 @@ class VoxelLayer(ObstacleLayer, plugin="costmap_2d::VoxelLayer"):
         if (dx, dy) != (0, 0):
             self.columns = shifted(self.columns, dx, dy, UNKNOWN)
         return dx, dy
-
-    def update_bounds(self, robot: Pose, bounds: Bounds) -> None:
-        """Update like the obstacle layer, and publish the voxels."""
-        super().update_bounds(robot, bounds)
-        if self._grids is not None and self._grids.num_connections():
-            self._grids.publish(self._message())
 
     def clear(self, observation: Observation, bounds: Bounds) -> None:
         """Clear the voxels between the sensor and the observed points."""
@@ -116,27 +104,6 @@ class VoxelLayer(ObstacleLayer, plugin="costmap_2d::VoxelLayer"):
         if len(mx):
             self.costs[my, mx] = LETHAL_OBSTACLE
             bounds.touch_cells(self.grid, Window(mx.min(), my.min(), mx.max() + 1, my.max() + 1))
-
-    def explain(self, mx: int, my: int) -> tuple[int | None, str]:
-        """Return the layer's cost at a cell, and the heights of its marked voxels."""
-        cost, words = super().explain(mx, my)
-        cell = self.grid.world_to_map(*self.layered.grid.map_to_world(mx, my))
-        heights = [] if cell is None else marked_heights(int(self.columns[cell[1], cell[0]]), self.size_z)
-        if not heights:
-            return cost, words
-        low, high = (self.origin_z + z * self.z_resolution for z in (heights[0], heights[-1] + 1))
-        return (cost, f"{words}, {len(heights)} of {self.size_z} voxels marked, from {low:.2f} m to {high:.2f} m")
-
-    def _message(self) -> Any:
-        message = message_class("costmap_2d/VoxelGrid")()
-        message.header.frame_id, message.header.stamp = self.layered.global_frame, self.node.now()
-        message.data = self.columns.astype(np.uint32).ravel()
-        message.size_x, message.size_y, message.size_z = self.grid.width, self.grid.height, self.size_z
-        message.origin.x, message.origin.y = self.grid.origin
-        message.origin.z = self.origin_z
-        message.resolutions.x = message.resolutions.y = self.grid.resolution
-        message.resolutions.z = self.z_resolution
-        return message
 
     def _cloud(self, observation: Observation) -> Any:
         """Return the end points of an observation's rays as a point cloud."""

@@ -40,11 +40,6 @@ def mark_voxels(columns: Columns, mx: Any, my: Any, mz: Any) -> None:
     np.bitwise_or.at(columns, (my, mx), (1 << mz) | (1 << (mz + BITS)))
 
 
-def marked_heights(column: int, size_z: int) -> list[int]:
-    """Return the indices of the marked voxels in a column, lowest first."""
-    return [z for z in range(size_z) if column >> (BITS + z) & 1]
-
-
 def bit_count(number: int) -> int:
     """Return the number of set bits."""
     count = 0

@@ -18,32 +18,17 @@ from rosmini.navigation.base_local_planner.following import (
     Following,
     OdometryHelper,
     Publications,
-    ignore,
     no_command,
     sim_period,
     twist,
 )
 from rosmini.navigation.base_local_planner.latched_stop_rotate import LatchedStopRotate
 from rosmini.navigation.base_local_planner.trajectory import Samples
-from rosmini.navigation.base_local_planner.trajectory_planner import TrajectoryPlannerParameters
 from rosmini.navigation.nav_core import BaseLocalPlanner, planar_pose
 
 from .dwa_planner import DWAPlanner, DWAPlannerParameters
 
 Floats = NDArray[np.float64]
-
-RENAMED = {
-    "max_trans_vel": "max_vel_trans",
-    "min_trans_vel": "min_vel_trans",
-    "max_rot_vel": "max_vel_theta",
-    "min_rot_vel": "min_vel_theta",
-    "acc_limit_trans": "acc_lim_trans",
-    "rot_stopped_vel": "theta_stopped_vel",
-}
-"""Names from releases before Melodic; as in ROS they only cause a warning."""
-
-OBSOLETE = ("penalize_negative_x", "acc_limit_x", "acc_limit_y", "acc_limit_th", "acc_lim_th", "sim_period")
-"""Obsolete names that files for real robots still contain."""
 
 
 @dataclass(frozen=True)
@@ -63,8 +48,6 @@ class DWAPlannerSettings(DWAPlannerParameters):
     )
     global_frame_id: str = parameter("odom", "not used: clouds are in the costmap's frame")
 
-    allowed = (*RENAMED, *OBSOLETE, *(each.name for each in fields(TrajectoryPlannerParameters)), "meter_scoring")
-
 
 class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
     """Follows a plan with the Dynamic Window Approach; `samples` holds the trajectories of the last cycle."""
@@ -76,7 +59,6 @@ class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
         """Read the parameters, advertise the topics, and subscribe to the odometry."""
         super().initialize(name, buffer, costmap)
         self.node, label = costmap.node, f"~{name}/"
-        self._warn_of_names(label)
         settings = DWAPlannerSettings.read(self.node, label)
         self._settings = settings
         self.publications = Publications(self.node, name, costmap.global_frame)
@@ -91,15 +73,6 @@ class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
         self.odometry = OdometryHelper(self.node, settings.odom_topic)
         self._initial_config: dict[str, Any] | None = None
         self._server = Server(self.node, DWAPlannerParameters, self._reconfigure, namespace=label)
-
-    def _warn_of_names(self, label: str) -> None:
-        for old, new in RENAMED.items():
-            if self.node.has_param(label + old):
-                self.node.logwarn(f"Parameter {old} is deprecated (and will not load properly). Use {new} instead.")
-        known = {each.name for each in fields(DWAPlannerSettings)}
-        others = [each.name for each in fields(TrajectoryPlannerParameters) if each.name not in known]
-        ignore(self.node, label, [*others, "meter_scoring"], "it belongs to TrajectoryPlannerROS")
-        ignore(self.node, label, OBSOLETE, "it belonged to an earlier release")
 
     def _reconfigure(self, config: Any, _: int) -> Any:
         names = [each.name for each in fields(DWAPlannerParameters)]

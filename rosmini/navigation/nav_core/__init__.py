@@ -14,7 +14,6 @@ from .failures import (
     NoValidCommand,
     OutsideMap,
     PlanningFailure,
-    StartBlocked,
     TransformMissing,
 )
 from .interfaces import BaseGlobalPlanner, BaseLocalPlanner, RecoveryBehavior
@@ -32,7 +31,6 @@ __all__ = [
     "OutsideMap",
     "PlanningFailure",
     "RecoveryBehavior",
-    "StartBlocked",
     "TransformMissing",
     "planar_pose",
     "pose_stamped",

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import NamedTuple
 
 from rosmini.core.errors import TransportException
-from rosmini.core.peers import Peers, host_of
+from rosmini.core.peers import Peers
 
 from .drops import Flow, flows
 from .nodes import namespace_of
@@ -59,19 +59,6 @@ def topics(peers: Peers) -> Topics:
 def by_type(peers: Peers, kind: str) -> list[str]:
     """Return the topics of a type."""
     return [name for name, one in types(peers) if one == kind]
-
-
-def by_host(peers: Peers, found: Topics) -> dict[str, Topics]:
-    """Return the topics by the hosts of the nodes that publish and subscribe."""
-    master = peers.ask_as(ID)
-    nodes = {node for side in found for each in side for node in each.nodes}
-    hosts = {node: host_of(master.find("lookupNode", node) or "") for node in sorted(nodes)}
-
-    def on(host: str, side: Sequence[Topic]) -> tuple[Topic, ...]:
-        held = [Topic(each.name, each.type, tuple(n for n in each.nodes if hosts[n] == host)) for each in side]
-        return tuple(each for each in held if each.nodes)
-
-    return {host: Topics(*(on(host, side) for side in found)) for host in sorted(set(hosts.values()))}
 
 
 class Found(NamedTuple):

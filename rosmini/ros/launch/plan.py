@@ -259,12 +259,6 @@ class Plan:
                 lines += [title, *(f"  {each}" for each in found)]
         return "\n".join(lines)
 
-    def show(self, **options: Any) -> Any:
-        """Return a picture: a tree of the files with their nodes, remappings and parameters."""
-        from rosmini.core.graph.show import show
-
-        return show("launch_plan", self, **options)
-
 
 def base(place: Place) -> str:
     """Return a place with only the last part of its path."""

@@ -2,22 +2,9 @@
 
 from __future__ import annotations
 
-from rosmini.viz.meshcat.command_recorder import Recorder
 from rosmini.viz.meshcat.gazebo import gazebo_3d
 from rosmini.viz.meshcat.runs import replay_3d
-from rosmini.viz.meshcat.scene3d import Camera, Scene3D
 from rosmini.viz.meshcat.urdf import urdf_3d
 from rosmini.viz.meshcat.view import MeshcatView, robot_3d, simulation_3d, world_3d
 
-__all__ = [
-    "Camera",
-    "MeshcatView",
-    "Recorder",
-    "Scene3D",
-    "gazebo_3d",
-    "replay_3d",
-    "robot_3d",
-    "simulation_3d",
-    "urdf_3d",
-    "world_3d",
-]
+__all__ = ["MeshcatView", "gazebo_3d", "replay_3d", "robot_3d", "simulation_3d", "urdf_3d", "world_3d"]

@@ -6,26 +6,9 @@
 
 from __future__ import annotations
 
-from rosmini.viz.replay.canvas_data import scene_data
 from rosmini.viz.replay.grids import Grid, Grids
-from rosmini.viz.replay.images import Images
-from rosmini.viz.replay.layers import Layer, Scans, Shape, Shapes, Stroke, Strokes
+from rosmini.viz.replay.layers import Shape, Shapes, Stroke, Strokes
 from rosmini.viz.replay.player import ReplayView, replay
 from rosmini.viz.replay.run import Body, Run
 
-__all__ = [
-    "Body",
-    "Grid",
-    "Grids",
-    "Images",
-    "Layer",
-    "ReplayView",
-    "Run",
-    "Scans",
-    "Shape",
-    "Shapes",
-    "Stroke",
-    "Strokes",
-    "replay",
-    "scene_data",
-]
+__all__ = ["Body", "Grid", "Grids", "ReplayView", "Run", "Shape", "Shapes", "Stroke", "Strokes", "replay"]

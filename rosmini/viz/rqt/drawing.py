@@ -86,20 +86,19 @@ def _graph(selection: Selection, namespaces: int) -> tuple[list[Vertex], list[Ed
     else:
         edges += [Edge(f"p:{n} {t}", f"n:{n}", f"t:{t}") for n, t in selection.publications]
         edges += [Edge(f"s:{t} {n}", f"t:{t}", f"n:{n}") for n, t in selection.subscriptions]
-    vertices = [_sized(f"n:{n}", "ellipse", edges, selection, namespaces) for n in selection.nodes]
+    vertices = [_sized(f"n:{n}", "ellipse", edges, namespaces) for n in selection.nodes]
     if selection.mode != "nodes_only":
-        vertices += [_sized(f"t:{t}", "box", edges, selection, namespaces) for t in selection.topics]
+        vertices += [_sized(f"t:{t}", "box", edges, namespaces) for t in selection.topics]
     return vertices, edges, labels
 
 
-def _sized(name: str, shape: str, edges: list[Edge], selection: Selection, namespaces: int) -> Vertex:
+def _sized(name: str, shape: str, edges: list[Edge], namespaces: int) -> Vertex:
     label = name[2:]
     width = text_width(label, style.TEXT_SIZE)
     busiest = max(
         sum(1 for e in edges if e.source == name != e.target), sum(1 for e in edges if e.target == name != e.source)
     )
-    around = [_namespaces(member) for member in selection.bundles.get(label, (label,))]
-    groups = tuple(space for space in around[0][:namespaces] if all(space in spaces for spaces in around))
+    groups = tuple(_namespaces(label)[:namespaces])
     if shape == "ellipse":
         height = min(120.0, max(36.0, 14 + 9.0 * busiest))
         return Vertex(name, max(64.0, width + 34, 1.2 * height), height, "ellipse", groups)
@@ -119,10 +118,8 @@ def _vertex(vertex: Vertex, layout: Layout, selection: Selection, look: str) -> 
         bad = name in selection.unreachable
         shape = ellipse(rect, "bad" if bad else "node")
         kind, tip = ("node rm-bad", f"{name} does not answer") if bad else ("node", f"node {name}")
-        if name in selection.bundles:
-            tip = f"{tip}: {', '.join(selection.bundles[name])}"
     else:
-        members = selection.groups.get(name) or selection.bundles.get(name, ())
+        members = selection.groups.get(name, ())
         shape = "".join(box(rect, "topic", 4.0, shift) for shift in ((4.0, 0.0) if members else (0.0,)))
         kind = "topic"
         tip = f"topic {name}" + (f" [{selection.types[name]}]" if name in selection.types else "")

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, get_args
 
 from rosmini.ros.introspection.nodes import names, silent
 from rosmini.viz.layout import Direction
-from rosmini.viz.rqt.condensing import condensed
 from rosmini.viz.rqt.drawing import draw
 from rosmini.viz.rqt.graph_state import CALLER_ID, GraphState, graph_state
 from rosmini.viz.rqt.highlight import highlighted
@@ -28,6 +27,9 @@ if TYPE_CHECKING:
     from rosmini.viz.view import View
 
     from .parts import Part
+
+MAX_PARTS = 1000
+"""Maximum number of nodes, topics and arrows of a picture."""
 
 DEFAULT_HIDE: tuple[Hide, ...] = ("debug", "dead_sinks", "leaf_topics", "params", "unreachable")
 DEFAULT_GROUP: tuple[Group, ...] = ("actions", "images", "tf")
@@ -49,8 +51,6 @@ def rqt_graph(
 ) -> Picture:
     """Draw who publishes what to whom, as rqt_graph does (wiki.ros.org/rqt_graph).
 
-    A graph of more than 300 nodes, topics and arrows is drawn in groups of similar nodes; the text says so.
-
     Args:
         source: a Master (anything with `getSystemState` and `getTopicTypes`), an object with a `master`, the value
             of `getSystemState`, or a `GraphState`.
@@ -71,7 +71,7 @@ def rqt_graph(
 
     Raises:
         ViewError: the source has no graph state, or a mode, switch or filter is not known, or nothing of the name
-            to highlight is drawn.
+            to highlight is drawn, or there is too much to draw.
 
     """
     state = shown = graph_state(source)
@@ -82,7 +82,13 @@ def rqt_graph(
         shown = before.joined(state)
         added, removed = state.parts() - before.parts(), before.parts() - state.parts()
     selected = select(shown, mode, hide=hide, group=group, nodes=namespace, topics=topics)
-    selection = condensed(replace(selected, added=added, removed=removed))
+    count = len(selected.drawn())
+    if count > MAX_PARTS:
+        raise ViewError(
+            f"this graph has {count} nodes, topics and arrows, and a picture at most {MAX_PARTS}: choose nodes or "
+            "topics by their names (rqt_graph --nodes, --topics)"
+        )
+    selection = replace(selected, added=added, removed=removed)
     text, alt = text_form(selection, title), alt_text(selection)
     found = highlighted(selection, highlight) if highlight else None
     if found is not None:

@@ -54,8 +54,8 @@ TF_TOPICS = ("/tf", "/tf_static")
 class Selection:
     """The nodes and topics that are shown.
 
-    `groups` maps the name of a group of topics, as in rqt_graph, to its topics; `bundles` does so for the nodes
-    and topics of a large graph. `hidden_nodes` and `hidden_topics` count what switches hide.
+    `groups` maps the name of a group of topics, as in rqt_graph, to its topics. `hidden_nodes` and `hidden_topics`
+    count what switches hide.
     """
 
     mode: Mode
@@ -67,7 +67,6 @@ class Selection:
     types: dict[str, str]
     unreachable: frozenset[str]
     groups: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    bundles: dict[str, tuple[str, ...]] = field(default_factory=dict)
     hidden_nodes: int = 0
     hidden_topics: int = 0
     added: frozenset[str] = frozenset()

@@ -27,7 +27,7 @@ def text_form(selection: Selection, title: str | None = None) -> str:
         lines.append(f"{source} -> {topic}{_type(selection, topic)} -> {sink}")
     connected = {name for publishers, _, subscribers in flows for name in (*publishers, *subscribers)}
     lines += [f"{node} (not connected)" for node in selection.nodes if node not in connected]
-    for name, members in sorted((selection.groups | selection.bundles).items()):
+    for name, members in sorted(selection.groups.items()):
         lines.append(f"{name} stands for {', '.join(m + _type(selection, m) for m in members)}")
     lines += [f"{node} does not answer" for node in sorted(selection.unreachable)]
     lines += _changes(selection)
@@ -65,11 +65,7 @@ def alt_text(selection: Selection) -> str:
 
 
 def _counts(selection: Selection, separator: str = ", ") -> str:
-    def counted(names: Collection[str], noun: str) -> str:
-        all_of_them = plural(sum(len(selection.bundles.get(name, (name,))) for name in names), noun)
-        return f"{all_of_them} drawn as {len(names)}" if selection.bundles else all_of_them
-
-    return counted(selection.nodes, "node") + separator + counted(selection.topics, "topic")
+    return plural(len(selection.nodes), "node") + separator + plural(len(selection.topics), "topic")
 
 
 def _type(selection: Selection, topic: str) -> str:

@@ -5,13 +5,12 @@
 
 from __future__ import annotations
 
-from .config import Config, ConfigError
-from .display import Display, Level, Status
-from .picture import RvizView, look_from, rviz, still, turnable
-from .primitives import DisplayError
+from .config import Config
+from .display import Display, Level
+from .picture import look_from, rviz, still, turnable
 from .scene import Layer, Scene
 
 __all__ = [
-    "Config", "ConfigError", "Display", "DisplayError", "Layer", "Level", "RvizView", "Scene", "Status", "look_from",
+    "Config", "Display", "Layer", "Level", "Scene", "look_from",
     "rviz", "still", "turnable",
 ]  # fmt: skip

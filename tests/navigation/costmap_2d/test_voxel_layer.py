@@ -18,7 +18,6 @@ VOXELS = {
     "origin_z": 0.0,
     "z_resolution": 0.25,
     "z_voxels": 8,
-    "publish_voxel_map": True,
 }
 
 
@@ -47,7 +46,6 @@ def test_a_ray_below_a_table_does_not_clear_the_table(stage, costmap):
     stage.scan([2.0, math.inf, math.inf, math.inf])
     assert costmap.grid.cost(*cell) == 254
     assert costmap.explain(*cell) == {"voxels": 254}
-    assert "1 of 8 voxels marked, from 0.75 m to 1.00 m" in str(costmap.explain(*cell))
 
 
 def test_the_columns_roll_with_the_window(stage, costmap):
@@ -58,19 +56,6 @@ def test_the_columns_roll_with_the_window(stage, costmap):
     assert [(mx, my) for my, mx in np.argwhere(grid.costs == 254)] == [grid.world_to_map(1.03, 0.03)]
     columns = costmap.layers[0].columns
     assert [(mx, my) for my, mx in np.argwhere(columns >> 16)] == [grid.world_to_map(1.03, 0.03)]
-
-
-def test_the_voxels_are_published(stage, costmap):
-    grids = []
-    stage.graph.node("listener").subscriber(
-        "move_base/costmap/voxels/voxel_grid", message_class("costmap_2d/VoxelGrid"), grids.append
-    )
-    put(stage, (1.03, 0.03, 0.8))
-    message = grids[-1]
-    assert (message.size_x, message.size_y, message.size_z) == (40, 40, 8)
-    assert message.resolutions.z == 0.25
-    assert (np.array(message.data) >> 16 != 0).sum() == 1
-    del costmap
 
 
 def test_a_reset_forgets_the_voxels(stage, costmap):

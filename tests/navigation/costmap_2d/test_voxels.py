@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.navigation.costmap_2d import voxels
-from rosmini.navigation.costmap_2d.voxels import UNKNOWN, clear_voxels, mark_voxels, marked_count, marked_heights
+from rosmini.navigation.costmap_2d.voxels import UNKNOWN, clear_voxels, mark_voxels, marked_count
 
 FRAME = np.array((0.0, 0.0, 0.0, 0.1, 0.2, 2.0))
 COORDINATES = st.tuples(st.floats(-1, 3), st.floats(-1, 3), st.floats(-0.5, 3))
@@ -23,6 +23,10 @@ def grid(value=254):
 def clear(columns, costs, sensor, ends, reach=100, marks=0, unknown=15, kernel=clear_voxels):
     points = np.array(ends, dtype=float).reshape(-1, 3)
     return kernel(columns, costs, FRAME, np.array(sensor, dtype=float), points, 10, reach, marks, unknown + 6)
+
+
+def marked_heights(column: int, size_z: int) -> list[int]:
+    return [z for z in range(size_z) if column >> (16 + z) & 1]
 
 
 def test_a_ray_clears_its_voxels_and_not_those_above():

@@ -134,15 +134,6 @@ def test_a_name_that_nobody_knows_is_warned_of_as_files_for_several_releases_hav
     assert "did you mean ~DWAPlannerROS/max_vel_x" in capsys.readouterr().err
 
 
-def test_names_of_earlier_releases_are_told_and_ignored(made, capsys):
-    bench = made({"max_trans_vel": 0.1, "penalize_negative_x": False, "vtheta_samples": 20})
-    warned = capsys.readouterr().err
-    assert "Parameter max_trans_vel is deprecated (and will not load properly). Use max_vel_trans instead." in warned
-    assert "penalize_negative_x is not read by this planner" in warned
-    assert "vtheta_samples is not read by this planner: it belongs to TrajectoryPlannerROS" in warned
-    assert bench.planner.parameters.max_vel_trans == 0.55
-
-
 @pytest.mark.parametrize(
     ("parameters", "message"),
     [

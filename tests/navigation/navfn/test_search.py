@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.navigation.nav_core import GoalBlocked, NoPath, OutsideMap, PlanningFailure, StartBlocked
+from rosmini.navigation.nav_core import GoalBlocked, NoPath, OutsideMap, PlanningFailure
+from rosmini.navigation.nav_core.failures import StartBlocked
 from rosmini.navigation.navfn import HIGH, NavfnSearch
 from rosmini.navigation.navfn.search import WaveSearch, navfn_table
 

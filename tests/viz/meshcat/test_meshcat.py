@@ -27,10 +27,10 @@ from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, Sphere, World
 from rosmini.sim.worlds import world
 from rosmini.viz import ViewError, style
-from rosmini.viz.meshcat import Camera, Recorder, Scene3D, replay_3d, robot_3d, world_3d
-from rosmini.viz.meshcat.command_recorder import meshcat
+from rosmini.viz.meshcat import replay_3d, robot_3d, world_3d
+from rosmini.viz.meshcat.command_recorder import Recorder, meshcat
 from rosmini.viz.meshcat.drawing import HEIGHT, WIDTH, draw
-from rosmini.viz.meshcat.scene3d import keyframes, planar, ribbon
+from rosmini.viz.meshcat.scene3d import Camera, Scene3D, keyframes, planar, ribbon
 from rosmini.viz.meshcat.solids import Ball, Prism, Rod, triangulate
 from rosmini.viz.meshcat.view import camera_for
 from rosmini.viz.replay import Body, Run, Shape, Shapes

@@ -8,7 +8,9 @@ import pytest
 from rosmini.msgs.geometry_msgs.msg import TransformStamped
 from rosmini.msgs.sensor_msgs.msg import Image
 from rosmini.msgs.tf2_msgs.msg import TFMessage
-from rosmini.viz.rqt import ActionTypes, ImageView, MessageTypes, ServiceTypes, TfTree
+from rosmini.viz.rqt.definitions import ActionTypes, MessageTypes, ServiceTypes
+from rosmini.viz.rqt.image_view import ImageView
+from rosmini.viz.rqt.tf_tree import TfTree
 from rosmini.viz.view import ViewError
 
 

@@ -11,7 +11,8 @@ import pytest
 
 from rosmini import Graph, Time
 from rosmini.msgs.rosgraph_msgs.msg import Log
-from rosmini.viz import ViewError, rqt_console
+from rosmini.viz import ViewError
+from rosmini.viz.rqt.console import rqt_console
 
 
 def message(level: int, name: str, text: str, *, at: float = 1000.0, topics: tuple[str, ...] = ("/rosout",)) -> Any:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rosmini.viz.rqt import LogConsole
+from rosmini.viz.rqt.console import LogConsole
 from rosmini.viz.view import ViewError
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rosmini.msgs.std_msgs.msg import String
-from rosmini.viz.rqt import NodeGraph
+from rosmini.viz.rqt.graph import NodeGraph
 from rosmini.viz.view import ViewError
 
 

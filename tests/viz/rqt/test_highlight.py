@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from rosmini.viz import ViewError
-from rosmini.viz.rqt import GraphState, rqt_graph
+from rosmini.viz.rqt import rqt_graph
+from rosmini.viz.rqt.graph_state import GraphState
 
 STATE = GraphState.of(
     [

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rosmini.core.errors import ServiceException
-from rosmini.viz.rqt import LoggerLevel
+from rosmini.viz.rqt.logger_level import LoggerLevel
 from rosmini.viz.view import ViewError
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rosmini.msgs.geometry_msgs.msg import Point
-from rosmini.viz.rqt import Plot
+from rosmini.viz.rqt.plot import Plot
 from rosmini.viz.view import ViewError
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rosmini.msgs.geometry_msgs.msg import Point
-from rosmini.viz.rqt import TopicMonitor
+from rosmini.viz.rqt.topics import TopicMonitor
 from rosmini.viz.view import ViewError
 
 

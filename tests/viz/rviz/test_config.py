@@ -7,8 +7,8 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.viz.rviz import Config, ConfigError
-from rosmini.viz.rviz.config import MAX_DEPTH
+from rosmini.viz.rviz import Config
+from rosmini.viz.rviz.config import MAX_DEPTH, ConfigError
 
 
 def test_a_public_file_is_written_again_with_all_that_was_in_it(stage, data):

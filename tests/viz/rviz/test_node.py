@@ -11,8 +11,8 @@ from rosmini.core.errors import UsageError
 from rosmini.core.packages import PackageIndex
 from rosmini.ros.net import connect
 from rosmini.viz.live import loopback
-from rosmini.viz.rviz import ConfigError
 from rosmini.viz.rviz import node as rviz_node
+from rosmini.viz.rviz.config import ConfigError
 from rosmini.viz.rviz.node import RViz
 
 FILE = str(PackageIndex().resolve("package://turtlebot3_navigation/rviz/turtlebot3_navigation.rviz"))

@@ -216,7 +216,7 @@ def test_rviz_of_a_graph_shows_what_is_published_and_leaves():
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, 1e12])
 def test_primitives_are_finite_and_near(bad):
-    from rosmini.viz.rviz import DisplayError
+    from rosmini.viz.rviz.primitives import DisplayError
 
     at = np.array([(0.0, 0.0, bad)])
     white = np.ones(4)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from rosmini.viz import ViewError
-from rosmini.viz.rviz import Display, DisplayError, Level
+from rosmini.viz.rviz import Display, Level
+from rosmini.viz.rviz.primitives import DisplayError
 
 
 def registered(stage) -> list[str]:

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from rosmini.core.geometry.angles import yaw_from_quaternion
 from rosmini.msgs.geometry_msgs.msg import PointStamped, PoseStamped, PoseWithCovarianceStamped
 from rosmini.viz import ViewError
-from rosmini.viz.rviz import Config, DisplayError
-from rosmini.viz.rviz.primitives import Lines, Mesh
+from rosmini.viz.rviz import Config
+from rosmini.viz.rviz.primitives import DisplayError, Lines, Mesh
 from rosmini.viz.rviz.tools import PoseTool, Tool, Tools, point
 from rosmini.viz.rviz.views import TopDownOrtho
 

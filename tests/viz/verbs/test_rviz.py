@@ -10,7 +10,8 @@ import pytest
 from rosmini import Graph
 from rosmini.core.errors import UsageError
 from rosmini.msgs.sensor_msgs.msg import LaserScan
-from rosmini.viz.rviz import ConfigError, RvizView
+from rosmini.viz.rviz.config import ConfigError
+from rosmini.viz.rviz.picture import RvizView
 from rosmini.viz.rviz.window import RVizWindow
 from rosmini.viz.verbs.rqt import Shown
 from rosmini.viz.verbs.rviz import TOOL

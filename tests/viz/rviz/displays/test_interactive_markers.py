@@ -10,8 +10,8 @@ import pytest
 
 from rosmini.msgs import message_class
 from rosmini.ros.interactive_markers import InteractiveMarkerServer, MenuHandler
-from rosmini.viz.rviz import DisplayError, still
-from rosmini.viz.rviz.primitives import Text
+from rosmini.viz.rviz import still
+from rosmini.viz.rviz.primitives import DisplayError, Text
 from rosmini.viz.rviz.tools import Tools
 
 Control = message_class("visualization_msgs/InteractiveMarkerControl")
