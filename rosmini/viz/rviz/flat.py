@@ -56,17 +56,10 @@ def draw(
     panes: Sequence[Pane] = (),
 ) -> str:
     """Draw primitives as an SVG: textures first, the rest from far to near, texts last; panes in rows below."""
-    if isinstance(projection, Perspective):
-        shown = [clipped(each, projection) for each in shown]
-    behind = [each for each in shown if isinstance(each, Texture) and each.behind]
-    maps = [each for each in shown if isinstance(each, Texture) and not each.behind]
     words = [each for each in shown if isinstance(each, Text)]
-    others = [each for each in shown if not isinstance(each, Texture | Text)]
-    rest = _joined(sorted(others, key=lambda each: (_is_raised(each), _nearness(each, projection))))
     width, height = projection.width, projection.height
     parts = [element("rect", width=width, height=height, fill=_hex(background.rgba()), rx=4.0)]
-    for each in (*behind, *maps, *rest):
-        parts += _elements(each, projection)
+    parts += elements(shown, projection)
     ink = _hex(background.rgba())
     parts += [
         element(
@@ -81,6 +74,17 @@ def draw(
     )  # fmt: skip
     below, high = _panes(panes, width, height)
     return document(body + below, width=width, height=high, title=title, alt=alt, css="", colours=["ink"], kind=KIND)
+
+
+def elements(shown: Sequence[Primitive], projection: Projection) -> list[str]:
+    """Return the SVG of primitives without texts: textures first, the rest from far to near."""
+    if isinstance(projection, Perspective):
+        shown = [clipped(each, projection) for each in shown]
+    behind = [each for each in shown if isinstance(each, Texture) and each.behind]
+    maps = [each for each in shown if isinstance(each, Texture) and not each.behind]
+    others = [each for each in shown if not isinstance(each, Texture | Text)]
+    rest = _joined(sorted(others, key=lambda each: (_is_raised(each), _nearness(each, projection))))
+    return [part for each in (*behind, *maps, *rest) for part in _elements(each, projection)]
 
 
 def _panes(panes: Sequence[Pane], width: float, top: float) -> tuple[str, float]:
@@ -101,6 +105,13 @@ def _panes(panes: Sequence[Pane], width: float, top: float) -> tuple[str, float]
             parts.append(
                 element("image", href=gif_url(data), x=x, y=top + 24, width=across * scale, height=tall * scale)
             )
+            if pane.overlay:
+                parts.append(
+                    element(
+                        "svg", pane.overlay, x=x, y=top + 24, width=across * scale, height=tall * scale,
+                        viewBox=f"0 0 {across} {tall}", overflow="hidden",
+                    )
+                )  # fmt: skip
             highest = max(highest, tall * scale)
         top += 24 + highest + GAP
     return "".join(parts), top

@@ -213,6 +213,8 @@ class Pane:
     title: str
     pixels: Pixels
     text: str = ""
+    overlay: str = ""
+    """SVG that is drawn over the pixels."""
 
 
 def _length(value: float, what: str) -> float:

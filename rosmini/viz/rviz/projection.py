@@ -15,6 +15,7 @@ import numpy as np
 from rosmini.core.geometry.products import matrix_product, norm
 from rosmini.viz.rounding import snap
 
+from .camera_images import PinHole
 from .primitives import Floats, Mesh, Primitive, Text, Texture
 from .rays import HIGH, Ray
 from .views import Viewpoint
@@ -84,11 +85,17 @@ class ParallelProjection:
 
 @dataclass(frozen=True)
 class Perspective:
-    """The perspective of an eye that looks at a point, upright; `field_of_view` is vertical [deg]."""
+    """The perspective of an eye or a camera."""
 
     eye: Floats
-    target: Floats
-    field_of_view: float
+    axes: Floats
+    """Directions (3, 3) right, up and towards the eye, in the fixed frame."""
+    distance: float
+    """Distance of the object that it looks at [m]."""
+    focal: float
+    """Focal length [px]."""
+    middle: tuple[float, float]
+    """Where the eye looks, in the picture [px]."""
     width: float
     height: float
     step: float = 0.0
@@ -98,36 +105,37 @@ class Perspective:
     def of(cls, viewpoint: Viewpoint, width: float, height: float, step: float = 0.0) -> Perspective:
         """Return the perspective of a view."""
         eye = viewpoint.target + viewpoint.distance * _axes(viewpoint.yaw, viewpoint.pitch)[2]
-        return cls(eye, viewpoint.target, viewpoint.field_of_view, width, height, step)
+        away = eye - viewpoint.target
+        x, y, z = away
+        axes = _axes(math.atan2(y, x), math.atan2(z, math.hypot(x, y)))
+        focal = height / 2 / math.tan(math.radians(viewpoint.field_of_view) / 2)
+        return cls(eye, axes, norm(away), focal, (width / 2, height / 2), width, height, step)
 
-    @property
-    def _focal(self) -> float:
-        """Focal length [px]."""
-        return self.height / 2 / math.tan(math.radians(self.field_of_view) / 2)
-
-    @property
-    def axes(self) -> Floats:
-        """Directions (3, 3) right, up and towards the eye, in the fixed frame."""
-        x, y, z = self.eye - self.target
-        return _axes(math.atan2(y, x), math.atan2(z, math.hypot(x, y)))
+    @classmethod
+    def of_camera(cls, camera: PinHole, pose: Floats, scale: float) -> Perspective:
+        """Return the projection of a camera at a pose (4, 4): x to the right, y down, z ahead (REP 103)."""
+        eye = pose[:3, 3] + matrix_product(pose[:3, :2], np.array([camera.tx, camera.ty]))
+        axes = np.array([pose[:3, 0], -pose[:3, 1], -pose[:3, 2]])
+        middle = (camera.cx * scale, camera.cy * scale)
+        return cls(eye, axes, 1.0, camera.fx * scale, middle, camera.width * scale, camera.height * scale, 0.1)
 
     def pixels(self, points: Floats) -> Floats:
         """Return the positions of points (n, 3) in the picture (n, 2) [px]; points behind the eye are far outside."""
         right, up, back = matrix_product(points - self.eye, self.axes.T).T
         away = np.where(back < 0, -back, np.inf)
-        seen = np.column_stack([self.width / 2 + self._focal * right / away, self.height / 2 - self._focal * up / away])
+        seen = np.column_stack([self.middle[0] + self.focal * right / away, self.middle[1] - self.focal * up / away])
         return np.where((back < 0)[:, None], snap(seen, self.step) if self.step else seen, NOWHERE)
 
     @property
     def scale(self) -> float:
         """Pixels per metre at the target."""
-        return self._focal / norm(self.eye - self.target)
+        return self.focal / self.distance
 
     def scale_at(self, points: Floats) -> float:
         """Return the number of pixels per metre at the mean distance of points (n, 3) in front of the eye."""
         away = -self.nearness(points)
         away = away[away > 0]
-        return float(self._focal / away.mean()) if len(away) else self.scale
+        return float(self.focal / away.mean()) if len(away) else self.scale
 
     def nearness(self, points: Floats) -> Floats:
         """Return the nearness (n,) of points (n, 3) to the eye [m], along its direction; negative in front of it."""
@@ -148,7 +156,7 @@ class Perspective:
 
     def ray(self, x: float, y: float) -> Ray:
         """Return the line of sight through a pixel, from the eye."""
-        seen = np.array([x - self.width / 2, self.height / 2 - y, -self._focal])
+        seen = np.array([x - self.middle[0], self.middle[1] - y, -self.focal])
         ahead = matrix_product(seen, self.axes)
         return self.eye, ahead / norm(ahead)
 

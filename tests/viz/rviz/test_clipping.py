@@ -15,8 +15,10 @@ from rosmini.viz.rviz.projection import Perspective
 from rosmini.viz.view import ViewError
 
 WHITE = np.ones(4)
-LEVEL = Perspective(np.array([0.0, 0.0, 1.0]), np.array([5.0, 0.0, 1.0]), 90.0, 300.0, 200.0)
-DOWN = Perspective(np.array([0.0, -3.0, 3.0]), np.zeros(3), 45.0, 300.0, 200.0)
+AHEAD = np.array([(0.0, -1.0, 0.0), (0.0, 0.0, 1.0), (-1.0, 0.0, 0.0)])
+LEVEL = Perspective(np.array([0.0, 0.0, 1.0]), AHEAD, 5.0, 100.0, (150.0, 100.0), 300.0, 200.0)
+SLANT = np.array([(1.0, 0.0, 0.0), (0.0, 0.5**0.5, 0.5**0.5), (0.0, -(0.5**0.5), 0.5**0.5)])
+DOWN = Perspective(np.array([0.0, -3.0, 3.0]), SLANT, 18**0.5, 241.4, (150.0, 100.0), 300.0, 200.0)
 
 
 def test_a_line_ends_where_it_passes_the_eye():

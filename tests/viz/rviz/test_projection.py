@@ -18,6 +18,9 @@ SIGHTS = st.builds(
 )  # fmt: skip
 
 
+AHEAD = np.array([(0.0, -1.0, 0.0), (0.0, 0.0, 1.0), (-1.0, 0.0, 0.0)])
+
+
 @given(SIGHTS, st.floats(-0.45, 0.45), st.floats(-0.45, 0.1))
 def test_a_point_of_the_ground_is_found_again_where_it_is_seen(viewpoint, right, up):
     look = Perspective.of(viewpoint, 640.0, 400.0)
@@ -33,14 +36,14 @@ def test_a_point_of_the_ground_is_found_again_where_it_is_seen(viewpoint, right,
 
 
 def test_a_camera_sees_its_field_of_view_from_bottom_to_top():
-    look = Perspective(np.array([-2.0, 0.0, 0.0]), np.zeros(3), 90.0, 300.0, 200.0)
+    look = Perspective(np.array([-2.0, 0.0, 0.0]), AHEAD, 2.0, 100.0, (150.0, 100.0), 300.0, 200.0)
     corners = np.array([(0.0, 0.0, 2.0), (0.0, 0.0, -2.0), (0.0, 3.0, 0.0), (-3.0, 0.0, 0.0)])
     assert look.pixels(corners)[:3] == pytest.approx(np.array([(150, 0), (150, 200), (0, 100)]))
     assert look.pixels(corners)[3].tolist() == [NOWHERE, NOWHERE]
 
 
 def test_above_the_horizon_a_hand_is_far_away_in_that_direction():
-    look = Perspective(np.array([0.0, 0.0, 1.0]), np.array([5.0, 0.0, 1.0]), 45.0, 300.0, 200.0)
+    look = Perspective(np.array([0.0, 0.0, 1.0]), AHEAD, 5.0, 241.4, (150.0, 100.0), 300.0, 200.0)
     assert look.metres(150.0, 20.0) == pytest.approx((HORIZON, 0.0, 0.0))
     x, y, _ = look.metres(0.0, 20.0)
     assert (math.hypot(x, y), y > 0) == (pytest.approx(HORIZON), True)

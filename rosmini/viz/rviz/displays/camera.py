@@ -14,10 +14,12 @@ from rosmini.core.tf.rigid import matrix
 from rosmini.viz.rviz.camera_images import MAX_SHOWN, image_pixels, info_topic, pin_hole, resized
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.display import Level, Shown
+from rosmini.viz.rviz.flat import elements
 from rosmini.viz.rviz.image_display import ImageDisplay, described
-from rosmini.viz.rviz.overlay import Overlay
 from rosmini.viz.rviz.primitives import DisplayError, Pane
+from rosmini.viz.rviz.projection import Perspective
 from rosmini.viz.rviz.properties import Property, Tree
+from rosmini.viz.svg import element
 
 BACKGROUND, OVERLAY, BOTH = "background", "overlay", "background and overlay"
 EMPTY = 48
@@ -77,13 +79,13 @@ class Camera(ImageDisplay, plugin="rviz/Camera"):
                 raise DisplayError(context.problem(image.header.frame_id, error)) from error
         pixels = image_pixels(image, self.bounds(5))
         scale = min(1.0, math.sqrt(MAX_SHOWN / (camera.width * camera.height)))
-        zoom = float(self["Zoom Factor"])
-        overlay = Overlay(camera.zoomed(zoom), pose, scale)
-        visibility = self["Visibility"]
-        overlay.draw(each for name, primitives in shown if visibility.is_enabled(name) for each in primitives)
-        rendering, alpha = self["Image Rendering"], float(self["Overlay Alpha"])
-        behind = resized(pixels, overlay.width, overlay.height, zoom)
-        seen = overlay.over(np.full_like(behind, EMPTY) if rendering == OVERLAY else behind)
-        if rendering != BACKGROUND:
-            seen = np.round(seen * (1.0 - alpha) + behind * alpha).astype(np.uint8)
-        return Pane(self.name, seen, described(image, pixels))
+        zoom, alpha = float(self["Zoom Factor"]), float(self["Overlay Alpha"])
+        visibility, rendering = self["Visibility"], self["Image Rendering"]
+        seen = [each for name, primitives in shown if visibility.is_enabled(name) for each in primitives]
+        drawn = elements(seen, Perspective.of_camera(camera.zoomed(zoom), pose, scale))
+        behind = resized(pixels, max(1, round(camera.width * scale)), max(1, round(camera.height * scale)), zoom)
+        if rendering == OVERLAY:
+            behind = np.round(EMPTY * (1.0 - alpha) + behind * alpha).astype(np.uint8)
+        opacity = None if rendering == BACKGROUND else 1.0 - alpha
+        overlay = element("g", "".join(drawn), opacity=opacity) if drawn else ""
+        return Pane(self.name, behind, described(image, pixels), overlay)
