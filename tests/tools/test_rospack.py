@@ -99,8 +99,6 @@ def test_rosversion(workspace: Path, monkeypatch: pytest.MonkeyPatch, capsys: py
         assert capsys.readouterr().out == printed
     assert main(["rosversion", "alpa"]) == 1
     assert "did you mean alpha" in capsys.readouterr().err
-    assert main(["rosversion", "--all"]) == 0
-    assert "alpha: 1.2.3" in capsys.readouterr().out.splitlines()
 
 
 def test_roscd_and_rosls(workspace: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
