@@ -131,7 +131,6 @@ GRAPHS: dict[str, tuple[str, ...]] = {
     "services": (ROBOT, TALKER),
     "parameter_server": (ROBOT, DRIVER, FILES),
     "bags": (TALKER, RECORDED),
-    "names": (ROBOT, TALKER),
     "simulation_and_stage": (FILES,),
     "gazebo": (CRATE, "%roslaunch gazebo_ros empty_world.launch gui:=false"),
     "frames": (ROBOT, SHELF),
@@ -156,15 +155,9 @@ SKIPPED = {
     "ssh ubuntu@ROBOT roslaunch turtlebot3_bringup turtlebot3_robot.launch": ROBOTS_OWN,
     "python3 circle.py": READERS_OWN,
     "rosmini rosrun first circle.py": READERS_OWN,
-    "rosrun roscpp_tutorials listener __ns:=/left": ROBOTS_OWN,
-    "ROS_NAMESPACE=left rosrun roscpp_tutorials talker": ROBOTS_OWN,
-    "rosrun roscpp_tutorials talker chatter:=gossip": ROBOTS_OWN,
-    "rosrun roscpp_tutorials talker __ns:=/robot1 __name:=crier chatter:=/news": ROBOTS_OWN,
-    "rosnode info /robot1/crier": ROBOTS_OWN,
-    "uv run rosmini run talker.py chatter:=gossip _text:=hi": "run in exercises/test_names.py",
     "roslaunch turtlebot3_bringup turtlebot3_robot.launch": ROBOTS_OWN,
     (
-        "roslaunch turtlebot3_bringup turtlebot3_robot.launch multi_robot_name:=tb3_0 "
+        "ROS_NAMESPACE=tb3_0 roslaunch turtlebot3_bringup turtlebot3_robot.launch multi_robot_name:=tb3_0 "
         "set_lidar_frame_id:=tb3_0/base_scan"
     ): ROBOTS_OWN,
     **{

@@ -1,164 +1,170 @@
-"""Checks of the exercises in the chapter Names."""
+"""Checks of the exercises in the chapter Names: one program for several robots."""
 
 from __future__ import annotations
 
-from io import StringIO
-from pathlib import Path
-from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from rosmini.book.checks import exercise, expect, expect_type
-from rosmini.core import names
-from rosmini.core.graph import Graph
-from rosmini.msgs.std_msgs.msg import Float32, String
-from rosmini.ros.scripts import run_source
+from rosmini.book.checks import Script, Wrong, exercise, expect, expect_type
+from rosmini.book.trials import Trial
+from rosmini.msgs.geometry_msgs.msg import Twist
+from rosmini.msgs.sensor_msgs.msg import LaserScan
+from rosmini.msgs.std_msgs.msg import String
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-
-# ---- resolve: resolve ----
-
-CASES = [
-    ("/map", "/", "/camera"),
-    ("/map", "/robot1", "/robot1/camera"),
-    ("scan", "/", "/camera"),
-    ("scan", "/robot1", "/robot1/camera"),
-    ("arm/scan", "/lab/robot2", "/lab/robot2/camera"),
-    ("~rate", "/", "/camera"),
-    ("~rate", "/robot1", "/robot1/camera"),
-    ("~arm/rate", "/lab/robot2", "/lab/robot2/driver"),
-]
-
-
-@exercise("resolve", praise="The first character decides between the three cases; ROS needs no other rule.")
-def resolve(answer: Any) -> None:
-    """The full name to which a name resolves."""
-    for name, namespace, node in CASES:
-        found, right = answer(name, namespace, node), names.resolve(name, namespace, node)
-        hint = {
-            "/": "a global name is already the full name",
-            "~": "a private name follows the node's full name, without the ~",
-        }.get(name[0], "the namespace / already ends with a slash, the others do not")
-        expect(
-            found == right, f"{name} resolves to {right} for {node} (namespace {namespace}), not to {found!r}.", hint
-        )
-
-
-# ---- arguments: arguments ----
-
-TALKER = """
+PATROL = """
 import rospy
-from std_msgs.msg import String
+from geometry_msgs.msg import Twist
+from sensor_msgs.msg import LaserScan
 
-rospy.init_node("talker")
-chatter = rospy.Publisher("chatter", String, queue_size=10, latch=True)
-print(rospy.get_name(), chatter.resolved_name, rospy.get_param("~text", "hello"), sep="|")
+def on_scan(scan):
+    command = Twist()
+    if min(scan.ranges[:30] + scan.ranges[-30:]) > 0.5:
+        command.linear.x = speed
+    else:
+        command.angular.z = 0.8
+    cmd_vel.publish(command)
+
+rospy.init_node("patrol")
+speed = rospy.get_param("~speed", 0.2)
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+rospy.Subscriber("scan", LaserScan, on_scan)
+rospy.spin()
 """
 
 
-def _started(arguments: Sequence[str]) -> list[str]:
-    """Start a talker with these arguments; return its node, its topic and its text."""
-    out, err = StringIO(), StringIO()
-    run_source(TALKER, arguments, name="talker.py", stdout=out, stderr=err, prefix=False)
-    lines = out.getvalue().strip().splitlines()
-    last = (err.getvalue().strip().splitlines() or ["it printed nothing"])[-1]
-    expect(bool(lines), f"The talker does not accept them: {last}", "each argument contains one :=")
-    return lines[-1].split("|")
+# ---- arguments: start it right ----
+
+SPEED = 0.15
+"""Speed of the courier [m/s]."""
+
+
+def _driven(arguments: list[str], space: str) -> tuple[dict[str, list[str]], list[float], Any]:
+    """Start patrol.py; return the topics that each node publishes, the speeds of the commands, and the drive."""
+    speeds: list[float] = []
+    with Trial("room", f"__ns:={space}", "cmd_vel:=wheels/cmd_vel") as trial:
+        wheels = trial.graph.node("wheels")
+        wheels.subscriber(f"{space}/wheels/cmd_vel", Twist, lambda message: speeds.append(message.linear.x))
+        before = set(trial.graph.nodes)
+        try:
+            trial.start(Script("patrol.py", PATROL), *arguments)
+            trial.run(8.0)
+        except Wrong:
+            raise
+        except Exception as error:
+            raise Wrong(f"patrol.py does not accept the arguments: {error}", "each argument contains one :=") from error
+        publishers = trial.graph.ask_as("/check").call("getSystemState")[2][0]
+        new = {name: [topic for topic, names in publishers if name in names] for name in trial.graph.nodes}
+        return {name: topics for name, topics in new.items() if name not in before}, speeds, trial.view()
 
 
 @exercise("arguments", praise="Only one argument contains the namespace, and everything else is relative to it.")
-def arguments(answer: Any) -> None:
-    """The arguments that set the node name, the topic and the text of a talker."""
+def arguments(answer: Any) -> Any:
+    """The arguments that set the namespace, the name, the topic and the speed of a driver."""
     expect_type(answer, (list, tuple), "arguments is", "a list", "[...]")
     expect(all(isinstance(word, str) for word in answer), "All arguments are strings.", 'such as "from:=to"')
-    node, topic, text = _started(answer)
-    expect(node == "/crew/eve", f"The node is called {node}, not /crew/eve.", "use __ns:= and __name:=")
-    expect(text == "landed", f"It says {text!r}, not 'landed'.", "use _text:=, with one underscore")
-    expect(topic == "/crew/radio/news", f"It publishes on {topic}, not on /crew/radio/news.", "use chatter:=...")
-    moved = ["__ns:=/team" if word.startswith("__ns:=") else word for word in answer]
-    node, topic, _ = _started(moved)
+    started, speeds, _ = _driven(list(answer), "/amy")
+    node = next(iter(started), "missing")
+    expect(node == "/amy/courier", f"The node is called {node}, not /amy/courier.", "use __ns:= and __name:=")
+    topics = [topic for topic in started[node] if topic != "/rosout"]
     expect(
-        (node, topic) == ("/team/eve", "/team/radio/news"),
-        f"With the namespace /team instead, it runs as {node} and publishes on {topic}.",
+        "/amy/wheels/cmd_vel" in topics,
+        f"It publishes on {', '.join(topics)}, not on /amy/wheels/cmd_vel.",
+        "use cmd_vel:=...",
+    )
+    expect(bool(speeds), "No command arrived at the wheels: it gets no scans.", "do not remap scan")
+    expect(
+        abs(max(speeds) - SPEED) < 1e-9,
+        f"It drives at {max(speeds):g} m/s, not at {SPEED:g} m/s.",
+        "use _speed:=, with one underscore",
+    )
+    moved = ["__ns:=/team" if word.startswith("__ns:=") else word for word in answer]
+    started, _, view = _driven(moved, "/team")
+    found = [topic for topic in started.get("/team/courier", []) if topic != "/rosout"]
+    expect(
+        "/team/wheels/cmd_vel" in found,
+        f"With the namespace /team instead, {', '.join(started)} publishes on {', '.join(found) or 'another topic'}.",
         "write a relative name on the right side of the remapping",
     )
+    return view
 
 
-# ---- start_reporter: one report for all ----
+# ---- report: one report for all ----
 
 
-@exercise("start_reporter", praise="A third robot needs one more call, and no change to the screen.")
-def start_reporter(answer: Any) -> None:
-    """One node for each robot, which reads that robot's topic and writes to a common one."""
+@exercise("report", praise="A third robot needs one more start of your script, and no change.", gaps=2)
+def report(answer: Script) -> Any:
+    """One node for each robot, which reads that robot's scans and writes to a common topic."""
     got: list[str] = []
-    robots = ["/robot1", "/robot2", "/lab/robot3"]
-    with Graph() as graph:
+    with Trial("room", "_robots:=[{name: amy}, {name: bob, namespace: /lab/bob}]") as trial:
+        graph = trial.graph
         graph.node("screen").subscriber("/report", String, lambda message: got.append(message.data))
-        feeds = {}
-        for robot in robots:
-            answer(graph, robot)
-            feeds[robot] = graph.node("driver", namespace=robot).publisher("battery", Float32)
-        graph.run(0.1)
-        for robot, feed in feeds.items():
-            expect(
-                f"{robot}/reporter" in graph.nodes,
-                f"There is no node {robot}/reporter.",
-                'make it with graph.node("reporter", namespace=...)',
-            )
-            expect(
-                feed.num_connections() == 1,
-                f"{feed.num_connections()} nodes subscribe to {robot}/battery, not 1.",
-                "use the relative name battery, so that each reporter reads its own robot's",
-            )
-        for robot, volts in zip(robots, (11.5, 12.04, 10.96), strict=True):
-            feeds[robot].publish(volts)
-            graph.run(0.1)
-    right = ["/robot1: 11.5 V", "/robot2: 12.0 V", "/lab/robot3: 11.0 V"]
-    expect(
-        got == right,
-        f"The messages on /report were {got or 'none'}, not {right}.",
-        "use a global topic name; the text is node.namespace and the number formatted with :.1f",
+        seen: dict[str, list[str]] = {"/amy": [], "/lab/bob": []}
+        for space, texts in seen.items():
+            graph.node("witness" + space.replace("/", "_")).subscriber(
+                f"{space}/scan", LaserScan, lambda scan, space=space, texts=texts: texts.append(
+                    f"{space}: {scan.ranges[0]:.2f} m"
+                )
+            )  # fmt: skip
+            trial.start(answer, f"__ns:={space}")
+            trial.start(Script("patrol.py", PATROL), f"__ns:={space}")
+        trial.run(8.0)
+        expect(
+            f"{next(iter(seen))}/report" in graph.nodes,
+            "There is no node /amy/report.",
+            "init_node takes the name without the namespace",
+        )
+        expect(
+            got,
+            "There was no message on /report.",
+            "the common topic has a global name, the robot's scan a relative one",
+        )
+        known = {text for texts in seen.values() for text in texts}
+        strange = [text for text in got if text not in known]
+        example = seen["/amy"][-1]
+        expect(
+            not strange,
+            f"A message on /report was {strange[0] if strange else ''!r}. It should look like {example!r}.",
+            'rospy.get_namespace() ends with a "/"; format the number with :.2f',
+        )
+        for space in seen:
+            count = sum(text.startswith(f"{space}: ") for text in got)
+            expect(count > 30, f"In 8 s there were {count} reports of {space}; it scans five times a second.")
+        trial.expect_no_errors()
+        return trial.view()
+
+
+# ---- dance: all robots dance ----
+
+
+@exercise("dance", praise="The script found the robots by the topics that they publish.")
+def dance(answer: Script) -> Any:
+    """Every robot turns in place, whatever its name is and however many there are."""
+    _dances(answer, "[{name: rosa, namespace: /}]", {"rosa": "/"})
+    robots = {"amy": "/amy", "bob": "/lab/bob", "eve": "/eve"}
+    given = ", ".join(
+        f"{{name: {name}, namespace: {space}, x: {x}}}"
+        for (name, space), x in zip(robots.items(), (-1, 0, 1), strict=True)
     )
+    return _dances(answer, f"[{given}]", robots)
 
 
-# ---- find_file: find the file ----
-
-
-@exercise("find_file", praise="Such an address works wherever the package is, and an overlay can replace the package.")
-def find_file(answer: Any) -> None:
-    """The file that package://NAME/PATH means, given a list of folders."""
-    with TemporaryDirectory() as made:
-        root = Path(made)
-        files = [
-            "a/robot/package.xml",
-            "a/robot/readme",
-            "b/robot/package.xml",
-            "b/robot/maps/floor.yaml",
-            "b/arm/package.xml",
-            "b/arm/meshes/left/hand.stl",
-            "a/arm/meshes/left/hand.stl",
-            "b/arm/readme",
-        ]
-        for file in files:
-            (root / file).parent.mkdir(parents=True, exist_ok=True)
-            (root / file).touch()
-        folders = [root / "none", root / "a", root / "b"]
-        for url, right, hint in [
-            ("package://robot/readme", "a/robot/readme", "search the folders in turn"),
-            ("package://arm/readme", "b/arm/readme", "search the folders in turn"),
-            (
-                "package://arm/meshes/left/hand.stl",
-                "b/arm/meshes/left/hand.stl",
-                "a folder without a manifest is not a package",
-            ),
-            (
-                "package://robot/maps/floor.yaml",
-                None,
-                "only the first package of a name counts, even if the file is missing in it",
-            ),
-            ("package://leg/readme", None, "there is no such package"),
-        ]:
-            found = answer(url, list(folders))
-            shown = found.relative_to(root).as_posix() if isinstance(found, Path) else found
-            expect(shown == right, f"{url} means {right}, not {shown}.", hint)
+def _dances(answer: Script, given: str, robots: dict[str, str]) -> Any:
+    """Run the script with robots; return the drive. Raises `Wrong` if one of them does not turn."""
+    with Trial("arena", f"_robots:={given}") as trial:
+        trial.run(0.5)
+        trial.start(answer)
+        trial.run(1.0)
+        before = {name: trial.robot.truth(name) for name in robots}
+        trial.run(1.0)
+        for name, space in robots.items():
+            x, y, yaw = trial.robot.truth(name)
+            old_x, old_y, old_yaw = before[name]
+            turned = yaw - old_yaw
+            expect(
+                0.5 < turned % 6.283185 < 1.5,
+                f"The robot in the namespace {space} does not turn at 1 rad/s.",
+                "publish on cmd_vel in the namespace of each topic that ends with /scan",
+            )
+            expect(abs(x - old_x) + abs(y - old_y) < 0.05, f"The robot in {space} does not turn in place.")
+        trial.run(4.0)
+        trial.expect_no_errors()
+        return trial.view()

@@ -1,30 +1,22 @@
-"""The chapter Names: its program starts from a terminal as the page and exercises say."""
+"""The chapter Names: names resolve as its text says, and the check of an exercise starts the chapter's program."""
 
 from __future__ import annotations
 
-import re
+from rosmini.book.exercises.names import PATROL
 
-import pytest
-
-from .conftest import run_rosmini
+from .conftest import printed
 
 
-@pytest.fixture(scope="module")
-def talker(cells):
-    sources = [cell.source for cell in cells if cell.cell_type == "code" and 'TALKER = """' in cell.source]
-    return re.search(r'TALKER = """\n(.*?)"""', sources[0], re.DOTALL)[1]
+def test_both_sides_of_a_remapping_are_resolved_once(cells):
+    amy = printed(cells, "%rosrun notebook names.py __ns:=/amy scan:=/front_laser")
+    assert "/scan     is /scan" in amy
+    assert " scan      is /front_laser" in amy
+    chain = printed(cells, "%rosrun notebook names.py scan:=map map:=plan")
+    assert " scan      is /map" in chain
+    assert "map       is /plan" in chain
 
 
-def test_the_talker_starts_from_a_terminal_as_shown(cells, talker, tmp_path):
-    (tmp_path / "talker.py").write_text(talker, encoding="utf-8")
-    prose = "\n\n".join(cell.source for cell in cells if cell.cell_type == "markdown")
-    command, shown = re.search(r"^\$ uv run rosmini (run .*?)\n(.*?)\n```", prose, re.MULTILINE).groups()
-    assert run_rosmini(command, tmp_path) == (0, shown + "\n", "")
-
-
-def test_the_exercise_starts_the_same_talker(talker):
-    from rosmini.book.exercises.names import TALKER
-
-    for line in ('rospy.init_node("talker")', 'rospy.Publisher("chatter", String', 'rospy.get_param("~text"'):
-        assert line in talker
-        assert line in TALKER
+def test_the_exercise_starts_the_same_program(code):
+    chapter = next(source for source in code if source.startswith("%%node patrol.py"))
+    for line in PATROL.strip().splitlines():
+        assert line in chapter

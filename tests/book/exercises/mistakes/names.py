@@ -1,113 +1,83 @@
-"""Wrong answers to the exercises of the chapter Names."""
+"""Wrong answers to the exercises of the chapter Names: right ones with a fault put in."""
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from rosmini.core.graph import Graph
-from rosmini.msgs import message_class
+from rosmini.book.checks import Script
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+REPORT = """
+import rospy
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import String
 
-def _resolve(
-    *, in_root: str = "/", private: Callable[[str, str], str] = lambda node, rest: f"{node}/{rest}"
-) -> Callable[[], Any]:
-    def resolve(name: str, namespace: str, node_name: str) -> str:
-        if name[0] == "/":
-            return name
-        if name[0] == "~":
-            return private(node_name, name[1:])
-        return (in_root if namespace == "/" else namespace + "/") + name
+def on_scan(scan):
+    name = rospy.get_namespace().rstrip("/")
+    report.publish(f"{name}: {scan.ranges[0]:.2f} m")
 
-    return lambda: resolve
+rospy.init_node("report")
+report = rospy.Publisher("/report", String, queue_size=10)
+rospy.Subscriber("scan", LaserScan, on_scan)
+rospy.spin()
+"""
 
+DANCE = """
+import rospy
+from geometry_msgs.msg import Twist
 
-# ---- start_reporter: one report for all ----
+rospy.init_node("dance")
+publishers = []
+for topic, kind in rospy.get_published_topics():
+    if topic.endswith("/scan"):
+        robot = topic.removesuffix("/scan")
+        publishers.append(rospy.Publisher(robot + "/cmd_vel", Twist, queue_size=1))
 
-
-def _reporter(
-    battery: str = "battery", report: str = "/report", text: str = "{ns}: {value:.1f} V", name: str = "reporter"
-) -> Callable[[], Any]:
-    def start(graph: Graph, namespace: str) -> None:
-        node = graph.node(name, namespace=namespace)
-        out = node.publisher(report, message_class("std_msgs/String"), queue_size=10)
-        node.subscriber(
-            battery,
-            message_class("std_msgs/Float32"),
-            lambda message: out.publish(text.format(ns=node.namespace, value=message.data, name=node.name)),
-        )
-
-    return lambda: start
-
-
-def _without_namespace(graph: Graph, _: str) -> None:
-    _reporter()()(graph, "/")
-
-
-# ---- find_file: find the file ----
+command = Twist()
+command.angular.z = 1.0
+while not rospy.is_shutdown():
+    for publisher in publishers:
+        publisher.publish(command)
+    rospy.sleep(0.1)
+"""
 
 
-def _finder(*, manifest: bool = True, first_only: bool = True, check: bool = True, cut: int = 1) -> Callable[[], Any]:
-    def find(url: str, folders: list[Path]) -> Path | None:
-        name, *rest = url.removeprefix("package://").split("/", cut)
-        for folder in folders:
-            if (folder / name / ("package.xml" if manifest else "")).exists():
-                file = folder.joinpath(name, rest[0])
-                if file.exists() or (first_only and not check):
-                    return file
-                if first_only:
-                    return None
-        return None
-
-    return lambda: find
-
-
-def _last_first(url: str, folders: list[Path]) -> Path | None:
-    found: Path | None = _finder()()(url, folders[::-1])
-    return found
+def wrong(name: str, right: str, old: str, new: str) -> Callable[[], Script]:
+    """Return what makes a script with one place of it changed."""
+    assert old in right
+    return lambda: Script(name, right.replace(old, new))
 
 
 MISTAKES = {
-    "resolve": [
-        _resolve(in_root="//"),
-        _resolve(in_root=""),
-        _resolve(private=lambda node, rest: f"{node}/~{rest}"),
-        _resolve(private=lambda node, rest: f"{node.rpartition('/')[0]}/{rest}"),
-        _resolve(private=lambda node, rest: node + rest),
-        lambda: lambda name, namespace, _: name if name[0] == "/" else f"{namespace.rstrip('/')}/{name}",
-        lambda: lambda name, namespace, _: f"{namespace.rstrip('/')}/{name}",
-        lambda: lambda *_: "/map",
-    ],
     "arguments": [
+        lambda: "__ns:=/amy __name:=courier",
+        lambda: ["__ns:=/amy", "__name:=courier", "cmd_vel:=/amy/wheels/cmd_vel", "_speed:=0.15"],
+        lambda: ["__ns:=/amy", "__name:=courier", "cmd_vel:=wheels/cmd_vel", "speed:=0.15"],
+        lambda: ["__ns:=/amy", "__name:=courier", "cmd_vel:=wheels/cmd_vel"],
+        lambda: ["__ns:=/amy", "__name:=courier", "_speed:=0.15"],
+        lambda: ["__ns:=/amy", "cmd_vel:=wheels/cmd_vel", "_speed:=0.15"],
+        lambda: ["__name:=courier", "cmd_vel:=wheels/cmd_vel", "_speed:=0.15"],
+        lambda: ["__ns:=/amy", "__name:=courier", "cmd-vel:=wheels/cmd_vel", "_speed:=0.15"],
         list,
-        lambda: ["__ns:=/crew", "__name:=eve", "chatter:=/crew/radio/news", "_text:=landed"],
-        lambda: ["__ns:=/crew", "__name:=eve", "chatter:=news", "_text:=landed"],
-        lambda: ["__ns:=/crew", "_name:=eve", "chatter:=radio/news", "_text:=landed"],
-        lambda: ["__ns:=/crew", "__name:=eve", "chatter:=radio/news", "text:=landed"],
-        lambda: ["__name:=eve", "chatter:=/crew/radio/news", "_text:=landed"],
-        lambda: ["__ns:=/crew", "__name:=eve", "/chatter:=radio/news", "_text:=landed"],
-        lambda: ["__ns:=/crew", "__name:=crew/eve", "chatter:=radio/news", "_text:=landed"],
-        lambda: "__ns:=/crew __name:=eve chatter:=radio/news _text:=landed",
     ],
-    "start_reporter": [
-        _reporter(battery="/battery"),
-        _reporter(battery="~battery"),
-        _reporter(report="report"),
-        _reporter(text="{name}: {value:.1f} V"),
-        _reporter(text="{ns}: {value} V"),
-        _reporter(name="reporter1"),
-        lambda: _without_namespace,
-        lambda: lambda graph, namespace: graph.node("reporter", namespace=namespace),
+    "report": [
+        wrong("report.py", REPORT, '"/report"', '"report"'),
+        wrong("report.py", REPORT, '"scan"', '"/scan"'),
+        wrong("report.py", REPORT, '"scan"', '"/amy/scan"'),
+        wrong("report.py", REPORT, '.rstrip("/")', ""),
+        wrong("report.py", REPORT, "get_namespace", "get_name"),
+        wrong("report.py", REPORT, ":.2f", ":.1f"),
+        wrong("report.py", REPORT, "ranges[0]", "ranges[180]"),
+        wrong("report.py", REPORT, "rospy.spin()", ""),
     ],
-    "find_file": [
-        _finder(manifest=False),
-        _finder(first_only=False),
-        _finder(check=False),
-        _finder(cut=2),
-        lambda: _last_first,
-        lambda: lambda _, folders: folders[0],
+    "dance": [
+        wrong("dance.py", DANCE, 'robot + "/cmd_vel"', '"cmd_vel"'),
+        wrong("dance.py", DANCE, 'robot + "/cmd_vel"', '"/amy/cmd_vel"'),
+        wrong("dance.py", DANCE, 'if topic.endswith("/scan")', 'if topic == "/amy/scan"'),
+        wrong("dance.py", DANCE, "angular.z = 1.0", "linear.x = 0.2"),
+        wrong("dance.py", DANCE, 'removesuffix("/scan")', 'split("/")[1]'),
+        wrong("dance.py", DANCE, "for publisher in publishers:\n        publisher.publish", "publishers[0].publish"),
     ],
 }
