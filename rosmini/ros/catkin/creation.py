@@ -14,7 +14,7 @@ from rosmini.core.packages import MANIFEST, package_around
 from .checks import GOOD_NAME
 from .findings import CatkinError
 from .project import CMAKE
-from .templates import CMAKE_LISTS, MANIFEST_XML, METAPACKAGE_CMAKE, WORKSPACE_CMAKE
+from .template import filled
 
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\Z")
 VERSION = re.compile(r"\d{1,9}\.\d{1,9}\.\d{1,9}\Z")
@@ -103,7 +103,8 @@ def manifest(new: NewPackage) -> str:
         tags += [f"  <{tag}>{escape(name)}</{tag}>" for name in names]
     email = quoteattr(f"{user}@todo.todo")
     maintainers = [f"  <maintainer email={email}>{escape(name)}</maintainer>" for name in new.maintainers or (user,)]
-    return MANIFEST_XML.format(
+    return filled(
+        "package.xml",
         name=new.name,
         version=new.version,
         description=escape(new.description or f"The {new.name} package"),
@@ -118,13 +119,14 @@ def manifest(new: NewPackage) -> str:
 def cmake_lists(new: NewPackage) -> str:
     """Return the text of its ``CMakeLists.txt``."""
     if new.is_metapackage:
-        return METAPACKAGE_CMAKE.format(name=new.name)
+        return filled("metapackage.cmake", name=new.name)
     names = sorted(new.dependencies)
     listed = "".join(f"  {name}\n" for name in names)
     components = f"find_package(catkin REQUIRED COMPONENTS\n{listed})" if names else "find_package(catkin REQUIRED)"
     types = [name for name in names if name.endswith(("_msgs", "_srvs"))] or ["std_msgs"]
     boost = " ".join(new.boost_components)
-    return CMAKE_LISTS.format(
+    return filled(
+        "CMakeLists.txt",
         name=new.name,
         components=components,
         boost=f"find_package(Boost REQUIRED COMPONENTS {boost})" if boost else "# find_package(Boost REQUIRED)",
@@ -151,5 +153,5 @@ def init_workspace(source: Path) -> Path:
         raise CatkinError(f'File "{path}" already exists')
     if (source / MANIFEST).exists():
         raise CatkinError(f"{source} is a package; the source space is the folder above it")
-    path.write_text(WORKSPACE_CMAKE, encoding="utf-8")
+    path.write_text(filled("workspace.cmake"), encoding="utf-8")
     return path

@@ -16,65 +16,9 @@ from rosmini.msgs.registry import Registry
 
 from .findings import Finding
 from .project import Definition, Project
+from .template import filled
 
 MADE = "# Made by rosmini's catkin_make from {source}; changes here are lost.\n"
-
-HELPER = '''"""How the modules of this package come to their classes."""
-import sys
-import warnings
-
-
-def _rosmini():
-    """rosmini's messages, if it runs this script, or if there is no genpy."""
-    if "rosmini.msgs" not in sys.modules:
-        try:
-            import genpy  # noqa: F401
-        except ImportError:
-            import rosmini.msgs
-        else:
-            return None
-    return sys.modules["rosmini.msgs"]
-
-
-def _fresh(cls, md5):
-    if cls._md5sum != md5:
-        warnings.warn(f"{cls._type} was changed and not rebuilt: run catkin_make", stacklevel=4)
-    return cls
-
-
-def message(name, md5, text):
-    """The class of a message."""
-    ours = _rosmini()
-    if ours is not None:
-        return _fresh(ours.message_class(name), md5)
-    from genpy.dynamic import generate_dynamic
-
-    cls = generate_dynamic(name, text)[name]
-    cls.__name__ = name.partition("/")[2]
-    return cls
-
-
-def service(name, md5, request, response):
-    """The class of a service."""
-    ours = _rosmini()
-    if ours is not None:
-        return _fresh(ours.service_class(name), md5)
-    made = {"_type": name, "_md5sum": md5, "_request_class": request, "_response_class": response}
-    return type(name.partition("/")[2], (object,), made)
-
-
-def missing(package, kind, name, folder):
-    """Say why a name is not in a module."""
-    import os
-
-    package_folder = os.path.dirname(folder)
-    if os.path.isfile(os.path.join(folder, name + "." + kind)):
-        raise ImportError(
-            f"{package}/{name} is in {folder}, but was not built: name it in CMakeLists.txt of {package_folder}, "
-            "and run catkin_make"
-        )
-    raise AttributeError(f"the package {package!r} has no {kind} named {name!r}")
-'''
 
 INDEX = """
 _FOLDER = {folder!r}
@@ -105,7 +49,7 @@ def modules(name: str, project: Project, registry: Registry) -> dict[str, str]:
             names["msg"].append(short)
             made[f"msg/_{short}.py"] = source + _message(f"{name}/{short}", registry)
     if made:
-        made["_catkin.py"] = MADE.format(source=project.path) + HELPER
+        made["_catkin.py"] = MADE.format(source=project.path) + filled("_catkin.py")
     for kind, found in names.items():
         if found:
             lines = "".join(f"from ._{each} import *\n" for each in sorted(found))

@@ -11,49 +11,10 @@ from pathlib import Path
 
 from rosmini.core import files
 
+from .template import filled
 from .workspace import Workspace, package_folders, python_folder
 
 MADE = "# Made by rosmini's catkin_make; changes here are lost.\n"
-
-POSIX = """
-# Puts a folder first in a list of folders, once: NAME FOLDER
-_rosmini_first() {
-    eval "_rosmini_list=\\":\\${$1:-}:\\""
-    while :; do
-        case "$_rosmini_list" in
-            *":$2:"*) _rosmini_list="${_rosmini_list%%":$2:"*}:${_rosmini_list#*":$2:"}" ;;
-            *) break ;;
-        esac
-    done
-    _rosmini_list="${_rosmini_list#:}"
-    _rosmini_list="${_rosmini_list%:}"
-    eval "export $1=\\"\\$2\\${_rosmini_list:+:\\$_rosmini_list}\\""
-}
-
-"""
-POSIX_END = """
-export ROS_VERSION=1
-export ROS_PYTHON_VERSION=3
-export ROS_DISTRO="${ROS_DISTRO:-noetic}"
-export ROS_MASTER_URI="${ROS_MASTER_URI:-http://localhost:11311}"
-unset _rosmini_list
-unset -f _rosmini_first
-"""
-POWERSHELL = """
-function Set-RosminiFirst($Name, $Folder) {
-    $separator = [IO.Path]::PathSeparator
-    $rest = @([Environment]::GetEnvironmentVariable($Name) -split $separator | Where-Object { $_ -and $_ -ne $Folder })
-    [Environment]::SetEnvironmentVariable($Name, (@($Folder) + $rest) -join $separator)
-}
-
-"""
-POWERSHELL_END = """
-$env:ROS_VERSION = '1'
-$env:ROS_PYTHON_VERSION = '3'
-if (-not $env:ROS_DISTRO) { $env:ROS_DISTRO = 'noetic' }
-if (-not $env:ROS_MASTER_URI) { $env:ROS_MASTER_URI = 'http://localhost:11311' }
-Remove-Item Function:Set-RosminiFirst
-"""
 
 
 def setup_files(workspace: Workspace, underlays: Sequence[Path]) -> dict[Path, str]:
@@ -69,10 +30,10 @@ def setup_files(workspace: Workspace, underlays: Sequence[Path]) -> dict[Path, s
     devel = workspace.devel
     source_it = f". {shlex.quote(str(devel / 'setup.sh'))}\n"
     return {
-        devel / "setup.sh": MADE + POSIX + posix + POSIX_END,
+        devel / "setup.sh": MADE + filled("setup.sh", entries=posix),
         devel / "setup.bash": MADE + source_it,
         devel / "setup.zsh": MADE + source_it,
-        devel / "setup.ps1": MADE + POWERSHELL + power + POWERSHELL_END,
+        devel / "setup.ps1": MADE + filled("setup.ps1", entries=power),
         devel / "env.sh": f'#!/usr/bin/env sh\n{MADE}{source_it}exec "$@"\n',
     }
 
