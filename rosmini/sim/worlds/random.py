@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from rosmini.core.errors import shown
 from rosmini.core.geometry import polygons
-from rosmini.sim.motion import Walk
 from rosmini.sim.shapes import Box, Cylinder, Polygon, Shape, is_finite
 from rosmini.sim.world import Obstacle, Pose, World, WorldError
 
@@ -41,23 +40,19 @@ def random_world(
     rooms: int = 4,
     obstacles: int = 10,
     movable: int = 0,
-    walkers: int = 0,
     starts: int = 3,
 ) -> World:
     """Return a walled floor of `size` [m] around the origin, split into furnished rooms; equal for equal arguments.
 
     A robot narrower than 0.7 m can go from every start to every room and around every obstacle. In addition, `movable`
-    obstacles can be pushed, and `walkers` people walk up and down. There are fewer rooms, obstacles and walkers than
-    requested if there is no space for more. Raises `WorldError` if there is no space for all `starts`, for a floor
-    narrower than 2 m, and for invalid numbers.
+    obstacles can be pushed. There are fewer rooms and obstacles than requested if there is no space for more. Raises
+    `WorldError` if there is no space for all `starts`, for a floor narrower than 2 m, and for invalid numbers.
     """
-    _check(size, seed=seed, rooms=rooms, obstacles=obstacles, movable=movable, walkers=walkers, starts=starts)
+    _check(size, seed=seed, rooms=rooms, obstacles=obstacles, movable=movable, starts=starts)
     plan = _Plan(np.random.default_rng(seed), (-size[0] / 2, -size[1] / 2, size[0] / 2, size[1] / 2))
     plan.split(rooms)
     for i in range(obstacles + movable):
         plan.place_thing(i, pushed=i >= obstacles)
-    for i in range(walkers):
-        plan.place_walker(i)
     found = plan.free_places(starts)
     if len(found) < starts:
         raise WorldError(
@@ -99,8 +94,6 @@ class _Plan:
     things: list[Obstacle] = field(default_factory=list)
     discs: list[tuple[float, float, float]] = field(default_factory=list)
     """Circles around the obstacles: x, y, radius."""
-    routes: list[tuple[float, float, float, float]] = field(default_factory=list)
-    """Paths of the walkers."""
     doors: list[tuple[bool, float, float, float]] = field(default_factory=list)
     """Doors: True in a wall along x; the wall's y or x; the ends of the door."""
 
@@ -198,43 +191,21 @@ class _Plan:
         return Box(length, width), math.hypot(length, width) / 2
 
     def _place(self, from_walls: float, reach: float) -> tuple[float, float] | None:
-        """Return a position at this distance from walls, and a passage from obstacles and the paths of walkers."""
+        """Return a position at this distance from walls, and a passage from obstacles."""
         x0, y0, x1, y1 = self.floor
         for _ in range(TRIES):
             x, y = (round(float(v), 3) for v in self.rng.uniform((x0, y0), (x1, y1)))
-            if self._clear((x, y, x, y), from_walls, reach + PASSAGE):
+            if self._clear((x, y), from_walls, reach + PASSAGE):
                 return (x, y)
         return None
 
-    def _clear(self, way: tuple[float, float, float, float], from_walls: float, from_things: float) -> bool:
-        """Return True if a straight path, or a position, keeps away from walls, obstacles and the paths of walkers."""
-        begin_end = np.array(way).reshape(2, 2)
-        if _apart(np.array(way), self.sides) < from_walls:
+    def _clear(self, place: tuple[float, float], from_walls: float, from_things: float) -> bool:
+        """Return True if a position keeps away from walls and obstacles."""
+        point = np.array([place])
+        if polygons.distances(point, self.sides).min() < from_walls:
             return False
-        if self.discs:
-            discs = np.array(self.discs)
-            if (polygons.distances(discs[:, :2], np.array([way])) - discs[:, 2] < from_things).any():
-                return False
-        return not self.routes or (
-            _apart(np.array(way), np.array(self.routes)) >= from_things
-            and bool((polygons.distances(begin_end, np.array(self.routes)) >= from_things).all())
-        )
-
-    def place_walker(self, number: int) -> None:
-        """Add a walker on a free path; do nothing if there is no such path."""
-        for _ in range(TRIES):
-            begin = self._place(0.5, 0.0)
-            if begin is None:
-                return
-            turn, length = self.rng.uniform(-math.pi, math.pi), self.rng.uniform(1.5, 4.0)
-            end = (round(begin[0] + length * math.cos(turn), 3), round(begin[1] + length * math.sin(turn), 3))
-            if self._clear((*begin, *end), 0.5, 0.5):
-                self.routes.append((*begin, *end))
-                speed = round(float(self.rng.uniform(0.3, 0.8)), 2)
-                motion = Walk((begin, end), speed=speed, wait=1.0)
-                body = Cylinder(0.2)
-                self.things.append(Obstacle(f"walker {number + 1}", body, (*begin, 0.0), 1.75, "purple", motion=motion))
-                return
+        discs = np.array(self.discs).reshape(-1, 3)
+        return bool((np.hypot(*(discs[:, :2] - point).T) - discs[:, 2] >= from_things).all())
 
     def free_places(self, count: int) -> list[Pose]:
         """Return free starts for robots, with a passage between them."""
@@ -245,21 +216,6 @@ class _Plan:
                 break
             x, y = (round(float(v), 3) for v in self.rng.uniform((x0, y0), (x1, y1)))
             apart = all(math.dist((x, y), other[:2]) >= PASSAGE for other in found)
-            if apart and self._clear((x, y, x, y), PASSAGE / 2, PASSAGE / 2 + 0.1):
+            if apart and self._clear((x, y), PASSAGE / 2, PASSAGE / 2 + 0.1):
                 found.append((x, y, round(float(self.rng.uniform(-math.pi, math.pi)), 3)))
         return found
-
-
-def _apart(way: Floats, sides: Floats) -> float:
-    """Return the distance of a straight path (4,) from the nearest of `sides` (n, 4); 0 if it crosses one."""
-    ends = sides.reshape(-1, 2)
-    gap = min(polygons.distances(ends, way[None]).min(), polygons.distances(way.reshape(2, 2), sides).min())
-    a, b, c, d = way[:2], way[2:], sides[:, :2], sides[:, 2:]
-    crosses = (_side(a, b, c) * _side(a, b, d) < 0) & (_side(c, d, a) * _side(c, d, b) < 0)
-    return 0.0 if crosses.any() else float(gap)
-
-
-def _side(a: Floats, b: Floats, c: Floats) -> Floats:
-    """Return the side of the line from a to b on which c is, as a sign."""
-    area: Floats = (b[..., 0] - a[..., 0]) * (c[..., 1] - a[..., 1]) - (b[..., 1] - a[..., 1]) * (c[..., 0] - a[..., 0])
-    return area

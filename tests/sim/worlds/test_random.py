@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from assets.generate.worlds.sdf_writer import to_sdf
 from rosmini.sim.sdf import load, to_world
-from rosmini.sim.world import Walk, World, WorldError
+from rosmini.sim.world import World, WorldError
 from rosmini.sim.worlds import random_world, to_map
 
 CELL = 0.05
@@ -24,7 +24,7 @@ def described(world):
 
 
 def test_the_same_seed_makes_the_same_world_and_another_one_another():
-    assert described(random_world(3, walkers=1)) == described(random_world(3, walkers=1))
+    assert described(random_world(3)) == described(random_world(3))
     assert described(random_world(3)) != described(random_world(4))
 
 
@@ -45,19 +45,13 @@ def regions(free):
     return sizes
 
 
-@given(
-    st.integers(0, 2**32),
-    st.tuples(st.floats(5, 14), st.floats(5, 14)),
-    st.integers(1, 8),
-    st.integers(0, 15),
-    st.integers(0, 2),
-)
-def test_a_robot_gets_from_every_start_to_everywhere(seed, size, rooms, obstacles, walkers):
+@given(st.integers(0, 2**32), st.tuples(st.floats(5, 14), st.floats(5, 14)), st.integers(1, 8), st.integers(0, 15))
+def test_a_robot_gets_from_every_start_to_everywhere(seed, size, rooms, obstacles):
     size = (round(size[0], 2), round(size[1], 2))
-    world = random_world(seed, size=size, rooms=rooms, obstacles=obstacles, movable=1, walkers=walkers, starts=2)
+    world = random_world(seed, size=size, rooms=rooms, obstacles=obstacles, movable=1, starts=2)
     for start in world.starts:
         assert world.blocked(start, 0.35) is None
-    grid = to_map(World("w", tuple(o for o in world.obstacles if o.motion is None), starts=world.starts), CELL)
+    grid = to_map(World("w", world.obstacles, starts=world.starts), CELL)
     rows, columns = np.indices(grid.occupied.shape)
     room = (np.abs((columns + 0.5) * CELL + grid.origin[0]) < size[0] / 2) & (
         np.abs((rows + 0.5) * CELL + grid.origin[1]) < size[1] / 2
@@ -75,19 +69,15 @@ def test_a_robot_gets_from_every_start_to_everywhere(seed, size, rooms, obstacle
 
 
 def test_there_is_what_was_asked_for():
-    world = random_world(5, size=(14, 12), rooms=5, obstacles=8, movable=2, walkers=2, starts=4)
+    world = random_world(5, size=(14, 12), rooms=5, obstacles=8, movable=2, starts=4)
     things = [each for each in world.obstacles if each.colour != "wall"]
     assert sum(each.movable for each in things) == 2
-    assert sum(isinstance(each.motion, Walk) for each in things) == 2
-    assert len(things) == 12
+    assert len(things) == 10
     assert len(world.starts) == 4
-    for walker in (each for each in things if each.motion):
-        for t in np.arange(0, walker.motion.period, 0.2):
-            assert world.blocked(walker.at(float(t)), 0.2, 1.0) is None
 
 
 def test_it_can_be_written_for_gazebo():
-    world = random_world(1, walkers=1, movable=1)
+    world = random_world(1, movable=1)
     again = to_world(load(to_sdf(world)).worlds[0])
     assert len(again.obstacles) == len(world.obstacles)
     assert again.bounds == pytest.approx(world.bounds, abs=1e-5)
@@ -116,7 +106,7 @@ def test_a_seed_may_come_from_numpy():
     assert [o.pose for o in random_world(np.int64(4)).obstacles] == [o.pose for o in random_world(4).obstacles]
 
 
-@pytest.mark.parametrize("what", ["rooms", "obstacles", "movable", "walkers", "starts"])
+@pytest.mark.parametrize("what", ["rooms", "obstacles", "movable", "starts"])
 def test_nobody_asks_for_a_billion_things(what):
     with pytest.raises(WorldError, match=f"{what} is 1000000000; it must be 10000 or less"):
         random_world(0, **{what: 10**9})
