@@ -58,10 +58,6 @@ def test_a_missing_parameter_reads_as_a_sentence() -> None:
     assert str(ParameterNotSet("parameter [/a] is not set:\ntry this")) == "parameter [/a] is not set:\ntry this"
 
 
-def test_time_moved_backwards_keeps_the_amount() -> None:
-    assert errors.ROSTimeMovedBackwardsException(1.5).time == 1.5
-
-
 @pytest.mark.parametrize(
     ("name", "candidates", "clause"),
     [

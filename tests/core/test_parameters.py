@@ -10,7 +10,6 @@ import yaml
 from rosmini.core.errors import ParameterError
 from rosmini.core.graph import Graph
 from rosmini.core.parameters import Parameters, parameter
-from rosmini.sim.simulator import SimulatorParameters
 
 
 @dataclass(frozen=True)
@@ -28,10 +27,6 @@ class Settings(Parameters):
 def node():
     with Graph() as graph:
         yield graph.node("worker")
-
-
-def test_without_anything_set_the_defaults_hold(node):
-    assert Settings.read(node) == Settings(10.0, 3, None, False)
 
 
 def test_what_is_set_is_read_and_an_int_is_a_float(node):
@@ -94,12 +89,6 @@ def test_the_table_says_all():
         ("~label", "str", "", "", "", "what to write on it"),
         ("~loud", "bool", "False", "", "", "make a noise"),
     ]
-
-
-def test_every_parameter_of_the_simulator_has_a_meaning():
-    rows = SimulatorParameters.table()
-    assert [row[0] for row in rows][:2] == ["~world", "~model"]
-    assert all(row[5] for row in rows)
 
 
 # ---- namespaces and lists ----

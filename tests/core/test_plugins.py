@@ -10,9 +10,6 @@ import pytest
 from rosmini.core import plugins
 from rosmini.core.plugins import Plugin, PluginError
 
-from ..conftest import tool
-from ..processes import run
-
 
 class Planner(Plugin):
     """Stands for nav_core's."""
@@ -154,20 +151,3 @@ def test_one_entry_point_may_name_a_package_with_a_plugin_in_each_module(monkeyp
     assert {"their_pkg/First", "their_pkg/Second"} <= {*Planner.names()}
     for name in ("First", "Second"):
         del Planner._plugins[f"their_pkg/{name}"]
-
-
-def test_the_type_of_what_is_created_is_the_interface(tmp_path):
-    script = tmp_path / "typed.py"
-    script.write_text(
-        "from rosmini.core.plugins import Plugin\n"
-        "class Planner(Plugin):\n"
-        "    def plan(self) -> int: return 0\n"
-        "planner = Planner.create('a/B')\n"
-        "reveal_type(planner)\n"
-        "reveal_type(Planner.named('a/B'))\n",
-        encoding="utf-8",
-    )
-    tool("mypy")
-    done = run([sys.executable, "-m", "mypy", "--strict", str(script)])
-    revealed = [line.rpartition('"')[0].rpartition('"')[2] for line in done.stdout.splitlines() if "note" in line]
-    assert revealed == ["typed.Planner", "type[typed.Planner]"], done.stdout

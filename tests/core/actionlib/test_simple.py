@@ -6,7 +6,7 @@ import threading
 
 import pytest
 
-from rosmini.core.actionlib import ActionException, SimpleActionClient, SimpleActionServer, SimpleGoalState, Status
+from rosmini.core.actionlib import ActionException, SimpleActionClient, SimpleActionServer, Status
 from rosmini.core.errors import CallbackError
 from rosmini.core.graph import Graph
 from rosmini.core.time import Duration, Time
@@ -44,24 +44,6 @@ def start(graph, **options):
     return served, diary
 
 
-def test_a_goal_from_beginning_to_end(graph):
-    _, diary = start(graph)
-    diary.send(3)
-    assert diary.client.get_state() is Status.PENDING
-    assert diary.client.wait_for_result(100)
-    # Topics may overtake one another on the way: the first feedback may come before the status ACTIVE.
-    assert diary.entries[-1] == ("SUCCEEDED", [0, 1, 1, 2, 3])
-    assert [one for one in diary.entries if isinstance(one, int)] == [2, 3, 4]
-    assert diary.entries.count("active") == 1
-    assert diary.client.get_state() is Status.SUCCEEDED
-    assert diary.client.get_goal_status_text() == "there"
-    assert list(diary.client.get_result().sequence) == [0, 1, 1, 2, 3]
-    assert diary.client.simple_state is SimpleGoalState.DONE
-    assert diary.client.wait_for_result()
-    diary.client.cancel_goal()
-    assert diary.client.get_state() is Status.SUCCEEDED
-
-
 def test_in_process_the_order_is_that_of_events(sim):
     _, diary = start(sim)
     diary.send(2)
@@ -82,35 +64,6 @@ def test_timeouts(graph):
     assert diary.client.wait_for_result(Duration(100))
     assert diary.client.get_state() is Status.PREEMPTED
     assert diary.client.get_goal_status_text() == "stopped"
-
-
-def test_send_goal_and_wait(sim):
-    served, diary = start(sim)
-    client = diary.client
-    assert client.send_goal_and_wait(FibonacciGoal(3)) is Status.SUCCEEDED
-    begin = sim.now()
-    assert client.send_goal_and_wait(FibonacciGoal(50), 0.45, 5) is Status.PREEMPTED
-    assert (sim.now() - begin).to_sec() == pytest.approx(0.5)  # it stops at its next look
-    served.server.execute_callback = lambda goal: served.node.sleep(10)
-    assert client.send_goal_and_wait(FibonacciGoal(1), Duration(1), Duration(1)) is Status.ACTIVE
-    assert client.gh.get_goal_status() is Status.PREEMPTING
-
-
-def test_a_new_goal_preempts_the_old_one(sim):
-    served, first = start(sim)
-    second = Diary(sim, "second")
-    assert second.client.wait_for_server()
-    first.send(50)
-    sim.run(0.25)
-    second.send(1)
-    sim.run(0.04)
-    assert served.server.is_new_goal_available()
-    assert served.server.is_preempt_requested()
-    assert second.client.get_state() is Status.PENDING
-    assert second.client.wait_for_result(5)
-    assert first.entries[-1] == ("PREEMPTED", [0, 1, 1, 2, 3])
-    assert second.entries[-1] == ("SUCCEEDED", [0, 1, 1])
-    assert not served.server.is_preempt_requested()
 
 
 def test_of_several_that_wait_the_newest_is_kept(sim):
@@ -259,25 +212,6 @@ def test_goal_and_preempt_callbacks(sim):
     assert not other.client.wait_for_server(0.1)
 
 
-def test_a_server_that_looks_for_goals_by_itself(sim):
-    node = sim.node("server")
-    server = SimpleActionServer(node, "fibonacci", FibonacciAction)
-    diary = Diary(sim)
-    assert diary.client.wait_for_server()
-
-    def main():
-        while not server.is_new_goal_available():
-            node.sleep(0.1)
-        server.accept_new_goal()
-        server.set_aborted(text="not today")
-
-    node.run(main)
-    diary.send(1)
-    assert diary.client.wait_for_result(1)
-    assert diary.entries == ["active", ("ABORTED", [])]
-    assert diary.client.get_goal_status_text() == "not today"
-
-
 # -- mistakes ----------------------------------------------------------------------------------------------------------
 
 
@@ -339,24 +273,6 @@ def test_an_execute_callback_that_fails(sim, lenient, log):
     diary.send(1)
     with pytest.raises(CallbackError, match="called for a goal of /fibonacci"):
         diary.client.wait_for_result(1)
-
-
-def test_ending_a_goal_twice(sim):
-    served, diary = start(sim)
-
-    def twice(goal):
-        served.server.set_succeeded()
-        served.server.set_aborted()
-
-    served.server.execute_callback = twice
-    diary.send(1)
-    with pytest.raises(
-        CallbackError,
-        match=r"set_aborted\(\) is for a goal that is ACTIVE or PREEMPTING; this one is SUCCEEDED, which is final",
-    ):
-        sim.run(1)
-    sim.run(1)
-    assert diary.client.get_state() is Status.SUCCEEDED
 
 
 # -- clocks, shutdown, determinism -------------------------------------------------------------------------------------
@@ -432,14 +348,3 @@ def test_a_namespace_and_a_remapping(sim):
     assert client.wait_for_server(1)
     assert client.send_goal_and_wait(FibonacciGoal(1)) is Status.SUCCEEDED
     assert client.gh.id.startswith("/robot1/client-1-")
-
-
-def test_the_last_goal_leaves_the_list_though_the_server_keeps_it(sim):
-    served, diary = start(sim)
-    diary.send(1)
-    assert diary.client.wait_for_result(5)
-    (listed,) = served.server.action_server.status_list
-    assert served.server.current_goal.status_tracker is listed
-    sim.run(5.3)
-    assert served.server.action_server.status_list == []
-    assert served.server.current_goal.state is Status.SUCCEEDED

@@ -8,7 +8,6 @@ import math
 from dataclasses import dataclass
 from types import SimpleNamespace
 
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -155,11 +154,6 @@ def test_clamping_stays_in_the_range_and_changes_nothing_in_it(made, value):
             limited = one.clamp(value)
             assert one.min <= limited <= one.max
             assert limited == value or not one.min <= value <= one.max
-
-
-def test_numpy_scalars_are_values():
-    tree = {"name": "Default", "parameters": [number("x", default=np.float32(1.5))], "groups": []}
-    assert type(Description.of(tree)["x"].default) is float
 
 
 def test_a_configuration_has_items_and_attributes():

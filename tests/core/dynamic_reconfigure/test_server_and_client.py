@@ -15,7 +15,7 @@ from rosmini.msgs.dynamic_reconfigure.msg import Config as ConfigMessage
 from rosmini.msgs.dynamic_reconfigure.msg import GroupState, IntParameter
 from rosmini.msgs.dynamic_reconfigure.srv import Reconfigure
 
-from .conftest import TREE, number
+from .conftest import TREE
 from .test_description import Settings
 
 
@@ -45,17 +45,6 @@ def test_a_change_reaches_the_node_the_parameter_server_and_other_clients(graph)
     assert other.get_configuration(1.0) == heard[-1]
     assert [one["name"] for one in described[0]] == ["gain", "mode", "window", "on", "depth"]
     assert described[0][0]["max"] == 10.0
-
-
-def test_levels_are_joined_by_bitwise_or(graph):
-    """Two parameters may share bits: what is counted twice is there once."""
-    levels = {"slow": 0b001, "fast": 0b011, "left": 0b110, "right": 0b100}
-    tree = {"name": "Default", "parameters": [number(name, level=level) for name, level in levels.items()]}
-    served = Served(graph, {**tree, "groups": []})
-    for changes in (["slow", "fast"], ["fast", "left"], list(levels), ["right"], []):
-        served.server.update_configuration(dict.fromkeys(changes, float(len(served.calls))))
-    served.server.update_configuration({"left": served.server.config["left"]})  # no change
-    assert [level for _, level in served.calls] == [-1, 0b011, 0b111, 0b111, 0b100, 0, 0]
 
 
 def test_groups(graph):
@@ -225,30 +214,3 @@ def test_what_a_client_of_a_dumb_server_waits_for(sim):
     assert client.get_configuration(0.5) is None
     assert client.get_parameter_descriptions(0.5) is None
     assert client.get_group_descriptions(0.5) is None
-
-
-def test_callbacks_that_are_set_later_hear_what_is_known(sim):
-    served = Served(sim)
-    client = Client(sim.node("client"), "tuned", 5)
-    client.get_configuration(5)
-    heard, described = [], []
-    client.config_callback, client.description_callback = heard.append, described.append
-    assert heard[0]["gain"] == 1.5
-    assert described[0][1]["name"] == "mode"
-    assert client.config_callback is not None
-    assert client.description_callback is not None
-    client.close()
-    client.close()
-    served.server.update_configuration({"gain": 5})
-    sim.run(1.0)
-    assert len(heard) == 1
-
-
-def test_an_enumeration_by_name(sim):
-    enum = "{'enum': [{'name': 'Small', 'type': 'int', 'value': 3}], 'enum_description': 'sizes'}"
-    size = {"name": "size", "type": "int", "level": 1, "description": "", "edit_method": enum}
-    Server(sim.node("tuned"), {"name": "Default", "parameters": [size], "groups": []}, lambda c, _: c)
-    client = Client(sim.node("client"), "tuned", 5)
-    assert client.update_configuration({"size": "SMALL"}).size == 3
-    with pytest.raises(DynamicReconfigureParameterException, match="'tiny' cannot be converted to it"):
-        client.update_configuration({"size": "tiny"})

@@ -1,4 +1,3 @@
-import ast
 import math
 
 import pytest
@@ -98,14 +97,13 @@ def test_there_is_no_way_out(text):
         "round(1, -10**9)", "factorial(10**6)",
         "('a' * 1000).replace('a', 'b' * 10000)", "('a' * 100000).join(['b'] * 10000)", "sum([[1]] * 1000, [])",
         "reversed(range(10**9))",
-        "dict(zip(range(10**9), range(10**9)))", "[0 for i in range(2000) for j in range(2000)]",
+        "dict(zip(range(10**9), range(10**9)))", "[0 for i in range(10**5) for j in range(10**5)]",
         "max(i for i in range(10**9))",
         "[x + x for x in ['a' * 900000] * 9]", "'a' * 900000 + 'a' * 900000", "tuple([1] * 900000) * 2",
         "int('1' * 4000, 16) ** 2",
         "any([0] * 1000000 == [0] * 1000000 for i in range(10**6))", "['a' * 1000000 for i in range(100)]",
         "1" + " + 1" * 200, "-" * 5000 + "1",
         "(" * 500 + "1" + ")" * 500, "1" * 9000, "'" + "a" * 10000 + "'", "'a' * 9**9 % 1",
-        "[i for i in range(1999999)] * 2",
     ],
 )  # fmt: skip
 def test_nothing_grows_without_bounds(text):
@@ -168,9 +166,3 @@ def test_names_may_be_known_only_when_it_is_evaluated():
     with pytest.raises(ExpressionError, match=r"name 'b' is not defined \(in 'b'\)"):
         expression.evaluate({"a": 1})
     assert Expression("twice(a)", functions={"twice": Function("twice", lambda a: 2 * a)}).evaluate({"a": 4}) == 8
-
-
-def test_every_kind_of_node_is_decided_on():
-    """A kind of node that a later Python adds is refused, since only those listed are made."""
-    assert all(issubclass(kind, ast.expr) for kind in Expression.NODES)
-    assert {ast.Lambda, ast.JoinedStr, ast.NamedExpr, ast.Starred, ast.Await, ast.Yield}.isdisjoint(Expression.NODES)

@@ -56,12 +56,6 @@ def test_an_array_is_wrapped_as_its_numbers_are(numbers):
     np.testing.assert_array_equal(given_array, before)
 
 
-def test_arrays_keep_their_shape_and_numbers_stay_numbers():
-    assert normalize_angle(np.full((2, 3), 4.0)).shape == (2, 3)
-    assert normalize_angle(np.array(4.0)).shape == ()
-    assert type(normalize_angle(np.float64(4.0))) is float
-
-
 def test_no_direction_has_no_wrapped_form():
     assert math.isnan(normalize_angle(math.inf))
     assert math.isnan(normalize_angle(math.nan))
@@ -72,12 +66,6 @@ def test_the_distance_leads_from_start_to_end_by_at_most_half_a_turn(start, end)
     distance = shortest_angular_distance(start, end)
     assert -math.pi < distance <= math.pi
     assert abs(cmath.rect(1, start + distance) - cmath.rect(1, end)) < 1e-14
-
-
-def test_distances_of_arrays_are_broadcast():
-    found = shortest_angular_distance(np.array([3.0, 0.0]), -3.0)
-    np.testing.assert_allclose(found, [2 * math.pi - 6, -3.0], rtol=0, atol=1e-15)
-    assert shortest_angular_distance(0.0, np.zeros(2)).shape == (2,)
 
 
 @given(inside)

@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from rosmini.core.geometry.machine_code import COMPILING, LOADING, Deferral, progress
+from rosmini.core.geometry.machine_code import Deferral, progress
 
 
 class Screen(io.StringIO):
@@ -22,19 +22,6 @@ def start(monkeypatch):
     monkeypatch.setattr(Deferral, "total", 0)
     monkeypatch.setitem(sys.modules, "numba", None)
     monkeypatch.delitem(sys.modules, "numba")
-
-
-def test_a_loop_is_compiled_after_enough_work_of_its_own_and_of_all(start):
-    one, other = Deferral(), Deferral()
-    assert not one.due(LOADING)
-    assert not other.due(COMPILING)
-    assert one.due(1)
-    assert other.due(1)
-
-
-def test_loops_share_the_cost_of_loading_numba(start, monkeypatch):
-    monkeypatch.setitem(sys.modules, "numba", None)
-    assert Deferral().due(COMPILING + 1)
 
 
 @pytest.mark.parametrize("terminal", [True, False])

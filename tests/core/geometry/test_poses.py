@@ -9,7 +9,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.core.geometry.errors import GeometryError
 from rosmini.core.geometry.poses import arc, compose, inverse, transform_points
 
 numbers = st.floats(-100, 100)
@@ -49,11 +48,6 @@ def test_points_are_moved_as_matrices_move_them(pose, points):
     np.testing.assert_allclose(transform_points(pose, array), expected, rtol=0, atol=1e-12)
 
 
-def test_each_pose_moves_its_own_point():
-    moved = transform_points(np.array([(0.0, 0.0, math.pi / 2), (1.0, 2.0, 0.0)]), [(1.0, 0.0), (1.0, 0.0)])
-    np.testing.assert_allclose(moved, [(0, 1), (2, 2)], atol=1e-15)
-
-
 def test_a_quarter_of_a_circle():
     v, w = 0.22, 0.44
     pose = arc((0.0, 0.0, 0.0), v, w, math.pi / 2 / w)
@@ -82,14 +76,3 @@ def test_arrays_move_as_tuples_do(pose, speeds):
     expected = [arc(pose, one, other, 0.3) for one, other in speeds]
     np.testing.assert_allclose(arc(pose, v, w, 0.3), expected, rtol=0, atol=1e-13)
     np.testing.assert_allclose(arc(np.tile(pose, (len(v), 1)), v, w, 0.3), expected, rtol=0, atol=1e-13)
-
-
-def test_one_pose_at_many_times():
-    path = arc((1.0, 2.0, 0.0), 1.0, 0.0, np.array([0.0, 0.5, 1.0]))
-    np.testing.assert_allclose(path, [(1, 2, 0), (1.5, 2, 0), (2, 2, 0)])
-
-
-@pytest.mark.parametrize("call", [lambda: inverse(np.zeros(2)), lambda: transform_points((0.0, 0.0, 0.0), [1.0])])
-def test_arrays_of_another_shape_are_refused(call):
-    with pytest.raises(GeometryError, match=r"array \(\.\.\., \d\)"):
-        call()

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from rosmini.core.errors import GraphEnded, ROSInterruptException, RosminiError, ROSTimeMovedBackwardsException
+from rosmini.core.errors import ROSInterruptException, RosminiError, ROSTimeMovedBackwardsException
 from rosmini.core.graph.local_transport import LocalTransport
 from rosmini.core.time import Duration, Time
 from rosmini.msgs.rosgraph_msgs.msg import Clock
@@ -90,10 +90,14 @@ def test_a_rate_can_be_reset_by_a_jump_back(graph: Graph) -> None:
     assert sorted(outcomes) == ["raised: -50.0", "went on"]
 
 
-@pytest.mark.parametrize("hz", [0, -1, float("nan")])
-def test_a_rate_must_be_positive(simulated: Graph, hz: float) -> None:
+@pytest.mark.parametrize("number", [0, -1])
+def test_rates_and_periods_must_be_positive(simulated: Graph, number: float) -> None:
+    node = simulated.node("node")
+    for make in (node.rate, lambda period: node.timer(period, print)):
+        with pytest.raises(RosminiError, match="positive"):
+            make(number)
     with pytest.raises(RosminiError, match="positive"):
-        simulated.node("node").rate(hz)
+        node.rate(float("nan"))
 
 
 # -- Timer -------------------------------------------------------------------------------------------------------
@@ -195,12 +199,6 @@ def test_a_jump_back_ends_a_timer_or_restarts_it(graph: Graph, capsys: pytest.Ca
     assert capsys.readouterr().err.count("reset=True") == 1
 
 
-@pytest.mark.parametrize("period", [0, -1.0])
-def test_a_timers_period_must_be_positive(simulated: Graph, period: float) -> None:
-    with pytest.raises(RosminiError, match="positive"):
-        simulated.node("node").timer(period, print)
-
-
 # -- /clock ------------------------------------------------------------------------------------------------------
 
 
@@ -219,34 +217,9 @@ def tell(graph: Graph, clock: Publisher, seconds: float, *nodes: Node) -> None:
     until(graph, lambda: all(node.now().to_sec() == seconds for node in nodes))
 
 
-def test_with_use_sim_time_a_node_lives_on_what_arrives_on_clock(graph: Graph) -> None:
-    node, clock = on_topic_clock(graph)
-    assert node.now() == Time(0)
-    tell(graph, clock, 5.0, node)
-    woken: list[float] = []
-
-    def main() -> None:
-        node.sleep(2.0)
-        woken.append(node.now().to_sec())
-
-    node.run(main)
-    for seconds in (5.5, 6.5):
-        tell(graph, clock, seconds, node)
-        settle(graph)
-        assert woken == []
-    tell(graph, clock, 7.25, node)
-    until(graph, lambda: woken)
-    assert woken == [7.25]
-
-
-def test_without_use_sim_time_a_node_ignores_clock(graph: Graph) -> None:
-    node = graph.node("node")
-    assert "/clock" not in node.subscriptions
-    assert node.now() >= Time(1000)
-
-
 def test_a_sleep_before_the_first_clock_message_begins_with_it(graph: Graph) -> None:
     node, clock = on_topic_clock(graph)
+    assert node.now() == Time(0)
     woken: list[float] = []
 
     def main() -> None:
@@ -316,13 +289,6 @@ def test_a_clock_in_time_silences_the_warning(simulated: Graph, capsys: pytest.C
     tell(graph, clock, 1.0, node, graph.nodes["/clock"])
     graph.run(5.0)
     assert "nothing arrives on /clock" not in capsys.readouterr().err
-
-
-def test_the_report_names_the_missing_clock(simulated: Graph) -> None:
-    simulated.master.setParam("/test", "/use_sim_time", True)
-    node = simulated.node("node")
-    with pytest.raises(GraphEnded, match="waited for the first message on /clock"):
-        node.sleep(1.0)
 
 
 def test_a_shutdown_ends_a_sleep_on_a_clock_that_stands_still(graph: Graph) -> None:

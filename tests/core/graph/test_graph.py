@@ -66,16 +66,6 @@ def test_a_refusal_for_another_reason_than_the_type_says_who_and_why() -> None:
         graph.run(0.1)
 
 
-def test_a_publisher_that_left_before_the_connection_was_made_is_no_error() -> None:
-    graph = Graph()
-    talker, listener = graph.node("talker"), graph.node("listener")
-    publisher = talker.publisher("chatter", String)
-    subscriber = listener.subscriber("chatter", String)
-    publisher.unregister()
-    assert graph.run(0.1).reason == "time"
-    assert subscriber.num_connections() == 0
-
-
 def used(heard: list[str]) -> tuple[Graph, Node, Publisher]:
     """Return a graph with something of everything in it, which has run for a little more than a second."""
     graph = Graph()

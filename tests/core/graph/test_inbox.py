@@ -4,39 +4,9 @@ from __future__ import annotations
 
 import threading
 
-import pytest
-
 from rosmini.core.graph.event_queue import Inbox
 
 LONG = 300.0
-
-
-def test_things_come_out_in_the_order_in_which_they_went_in():
-    inbox: Inbox[int] = Inbox()
-    assert inbox.empty()
-    for number in range(3):
-        inbox.put(number)
-    assert not inbox.empty()
-    assert [inbox.get() for _ in range(3)] == [0, 1, 2]
-    with pytest.raises(IndexError):
-        inbox.get()
-
-
-def test_who_waits_is_woken_by_what_comes():
-    inbox: Inbox[str] = Inbox()
-    waits = threading.Event()
-
-    def put() -> None:
-        waits.wait(LONG)
-        inbox.put("here")
-
-    thread = threading.Thread(target=put)
-    thread.start()
-    waits.set()
-    while inbox.empty():
-        inbox.wait(LONG)
-    assert inbox.get() == "here"
-    thread.join()
 
 
 def test_no_wait_outlasts_its_timeout_however_short_that_is():

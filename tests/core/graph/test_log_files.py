@@ -107,11 +107,6 @@ def test_a_full_disk_ends_the_file_and_not_the_node(capsys: pytest.CaptureFixtur
     assert capsys.readouterr().err == "[WARN] the log file /dev/full ends here: No space left on device\n"
 
 
-def test_a_file_that_cannot_be_opened_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    LogFile(tmp_path, simulated=True).write("rosout", 2, 0, "text")
-    assert capsys.readouterr().err == f"[WARN] the log file {tmp_path} ends here: Is a directory\n"
-
-
 def test_log_names_the_file_of_a_node_and_a_file_of_wall_time_is_continued(tmp_path: Path) -> None:
     """As `rosrun ... __log:=FILE` has it; roslaunch names the files of its nodes so."""
     path = tmp_path / "new" / "mine.log"

@@ -9,7 +9,6 @@ import pytest
 
 import rosmini
 from rosmini import Graph
-from rosmini.core.graph.rosout import LogGates, LoggerTree
 from rosmini.msgs.roscpp.srv import GetLoggers, SetLoggerLevel
 
 from .conftest import settle, until
@@ -29,17 +28,6 @@ def texts(capsys: pytest.CaptureFixture[str]) -> list[str]:
 
 
 # -- gates -------------------------------------------------------------------------------------------------------
-
-
-def test_gates() -> None:
-    gates = LogGates()
-    assert [gates.is_due("a", now, 10) for now in (5, 10, 15, 16, 20, 26, 27)] == [
-        True, False, False, True, False, False, True,
-    ]  # fmt: skip
-    assert gates.is_due("b", 16, 10)
-    assert gates.is_due("a", 3, 10)  # time has jumped back
-    assert [gates.is_new("a", text) for text in "xxyx"] == [True, False, True, True]
-    assert [gates.is_first("a"), gates.is_first("b"), gates.is_first("a")] == [True, True, False]
 
 
 LOOPS: list[tuple[Callable[[Any, int], None], list[str]]] = [
@@ -63,18 +51,6 @@ def test_a_loop_of_ten_turns_at_5_hz(
     assert texts(capsys) == expected
 
 
-def test_throttling_in_wall_time(capsys: pytest.CaptureFixture[str]) -> None:
-    with Graph(simulated=False, rate=20.0) as graph:
-        node = graph.node("node")
-        begin, count, asked = node.now(), 0, 0
-        while count < 4 or asked < 40:
-            node.loginfo("tick", throttle=0.5)
-            count, asked = count + texts(capsys).count("tick"), asked + 1
-            passed = (node.now() - begin).to_sec()
-            graph.run(0.05)
-    assert count <= 1 + passed / 0.5  # a slow machine has less to throttle
-
-
 def test_each_place_and_each_node_counts_alone(simulated: Graph, capsys: pytest.CaptureFixture[str]) -> None:
     one, two = simulated.node("one"), simulated.node("two")
     for _ in range(2):
@@ -85,18 +61,6 @@ def test_each_place_and_each_node_counts_alone(simulated: Graph, capsys: pytest.
 
 
 # -- loggers -----------------------------------------------------------------------------------------------------
-
-
-def test_a_logger_has_the_level_of_the_nearest_above_it() -> None:
-    tree = LoggerTree()
-    assert tree.level("rosout.camera.driver") == 2
-    tree.set("rosout", 8)
-    tree.set("rosout.camera", 1)
-    listing = dict(tree.listing())
-    assert listing["rosout"] == 8
-    assert listing["rosout.camera"] == listing["rosout.camera.driver"] == 1
-    assert tree.level("rosout.other") == 8
-    assert listing["rospy"] == listing["rospy.internal"] == tree.level("unheard_of") == 2
 
 
 def test_levels_are_set_at_run_time(graph: Graph, capsys: pytest.CaptureFixture[str]) -> None:
@@ -145,7 +109,7 @@ def test_the_console_gathers_what_all_nodes_log(graph: Graph) -> None:
     until(graph, lambda: console.total == 4)
     assert len(console.messages) == 3
     assert {message.msg for message in console.messages} < {"/one 0", "/two 0", "/one 1", "/two 1"}
-    assert repr(console) == "<Console with 3 messages>"
+
     console.clear()
     assert (console.messages, console.total) == ([], 0)
     console.close()

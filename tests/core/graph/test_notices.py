@@ -5,9 +5,6 @@ from __future__ import annotations
 import threading
 from typing import Any
 
-from hypothesis import given
-from hypothesis import strategies as st
-
 from rosmini.core.errors import TransportException
 from rosmini.core.graph import Graph
 from rosmini.core.graph import notices as module
@@ -53,19 +50,6 @@ def test_a_node_that_hangs_delays_nobody() -> None:
     nodes.graph.run(1)
     assert nodes.told["http://hung/"] == nodes.told["http://well/"]
     assert nodes.problems == []
-
-
-@given(st.lists(st.tuples(st.sampled_from("abc"), st.integers())))
-def test_each_node_gets_its_own_in_their_order(posts: list[tuple[str, int]]) -> None:
-    nodes = Nodes()
-    for uri, value in posts:
-        nodes.notices.param_update(uri, "/key/", value)
-    nodes.graph.run(1)
-    told = {uri: [value for _, _, value in each] for uri, each in nodes.told.items()}
-    expected: dict[str, list[int]] = {}
-    for uri, value in posts:
-        expected.setdefault(uri, []).append(value)
-    assert told == expected
 
 
 def test_for_a_node_that_hangs_for_long_only_the_latest_is_kept() -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import inspect
-import re
 import weakref
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,7 +11,7 @@ import pytest
 
 from rosmini.core.errors import ServiceException
 from rosmini.core.graph.rosout import LEVELS
-from rosmini.msgs.roscpp.srv import GetLoggers, SetLoggerLevel
+from rosmini.msgs.roscpp.srv import SetLoggerLevel
 from rosmini.ros.scripts import run_source
 
 from .conftest import settle, until
@@ -83,32 +82,6 @@ def test_the_console_shows_level_time_and_text_on_rospys_streams(
     stream, other = (said.out, said.err) if level in ("DEBUG", "INFO") else (said.err, said.out)
     assert stream == f"[{level}] [1000.250000]: text\n"
     assert other == ""
-
-
-def test_the_time_of_the_console_is_that_of_the_node(graph: Graph, capsys: pytest.CaptureFixture[str]) -> None:
-    graph.node("node").loginfo("text")
-    assert re.fullmatch(r"\[INFO\] \[\d+\.\d{6}\]: text\n", capsys.readouterr().out)
-
-
-def test_debug_messages_are_kept_back_until_they_are_asked_for(
-    graph: Graph, capsys: pytest.CaptureFixture[str]
-) -> None:
-    node, client = graph.node("node"), graph.node("client")
-    node.logdebug("unseen")
-    assert capsys.readouterr().out == ""
-    loggers = client.service_client("/node/get_loggers", GetLoggers)
-    assert {logger.name: logger.level.upper() for logger in loggers().loggers}["rosout"] == "INFO"
-    change = client.service_client("/node/set_logger_level", SetLoggerLevel)
-    change(logger="rosout", level="debug")
-    assert {logger.name: logger.level.upper() for logger in loggers().loggers}["rosout"] == "DEBUG"
-    node.logdebug("seen")
-    assert "seen" in capsys.readouterr().out
-    change(logger="rosout", level="ERROR")
-    node.logwarn("unseen")
-    node.logerr("seen")
-    said = capsys.readouterr()
-    assert "unseen" not in said.out + said.err
-    assert "seen" in said.err
 
 
 def test_an_unknown_level_is_refused(graph: Graph, capsys: pytest.CaptureFixture[str]) -> None:

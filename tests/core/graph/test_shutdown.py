@@ -97,19 +97,6 @@ def test_a_hook_that_fails_is_reported_and_the_others_run(graph: Graph) -> None:
     assert "/node" not in graph.nodes
 
 
-def test_a_failing_hook_keeps_no_other_node_up(build: Callable[..., Graph]) -> None:
-    graph = build()
-    graph.node("older")
-
-    def bad() -> None:
-        raise ValueError("broken hook")
-
-    graph.node("newer").on_shutdown(bad)
-    with pytest.raises(CallbackError, match="broken hook"):
-        graph.shutdown()
-    assert graph.nodes == {}
-
-
 # -- blocked calls -----------------------------------------------------------------------------------------------
 
 
@@ -214,20 +201,6 @@ def test_a_node_that_was_shut_down_says_so(graph: Graph) -> None:
     assert publisher.num_connections() == 0
     publisher.unregister()
     subscriber.unregister()
-    assert repr(node) == "<Node /node (shut down)>"
-
-
-def test_a_nodes_registrations_go_with_it(graph: Graph) -> None:
-    node = graph.node("node")
-    node.publisher("t", String)
-    node.subscriber("t", String)
-    node.service("s", Empty, lambda _: None)
-    before = graph.master.getSystemState("/test")[2]
-    assert {"/node"} <= {name for kind in before for _, names in kind for name in names}
-    node.shutdown()
-    after = graph.master.getSystemState("/test")[2]
-    assert "/node" not in {name for kind in after for _, names in kind for name in names}
-    assert graph.master.lookupNode("/test", "/node")[0] == -1
 
 
 # -- duplicate names ---------------------------------------------------------------------------------------------

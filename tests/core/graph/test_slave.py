@@ -264,16 +264,6 @@ def test_a_thread_that_reads_a_wire_is_answered_while_a_callback_computes() -> N
     graph.shutdown()
 
 
-def test_a_node_that_has_ended_publishes_nothing(graph: Graph) -> None:
-    node = graph.node("talker")
-    node.publisher("chatter", String)
-    offers = graph.transport.offers(node.uri)
-    assert node.slave.call("requestTopic", "/test", "/chatter", offers)[0] == 1
-    node.shutdown()
-    answer = node.slave.call("requestTopic", "/test", "/chatter", offers)
-    assert answer == [-1, "Not a publisher of [/chatter]", []]
-
-
 def test_a_node_publishes_nothing_from_when_it_closes_its_connections(
     graph: Graph, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -12,7 +12,7 @@ from rosmini.core.errors import ROSException
 from rosmini.core.graph import Graph
 from rosmini.core.graph.local_transport import LocalTransport
 from rosmini.msgs.rospy_tutorials.srv import AddTwoInts
-from rosmini.msgs.std_msgs.msg import Header, Int32, String
+from rosmini.msgs.std_msgs.msg import Int32, String
 from tests.core.graph.byte_transport import ByteTransport
 
 from ...processes import PATIENCE
@@ -68,27 +68,6 @@ def test_a_thread_publishes_in_order(graph: Graph) -> None:
     assert in_thread(graph, work) == [None]
     until(graph, lambda: len(heard) == 200)
     assert heard == list(range(200))
-
-
-def test_what_a_thread_published_is_a_snapshot_with_its_own_number(graph: Graph) -> None:
-    heard: list[Any] = []
-    graph.node("listener").subscriber("h", Header, heard.append)
-    from rosmini.msgs.geometry_msgs.msg import PointStamped
-
-    graph.node("other").subscriber("p", PointStamped, heard.append)
-    publisher = graph.node("talker").publisher("p", PointStamped, queue_size=None)
-
-    def work() -> None:
-        publisher.wait_for_subscribers()
-        message = PointStamped()
-        for number in range(20):
-            message.point.x = float(number)
-            publisher.publish(message)
-
-    assert in_thread(graph, work) == [None]
-    until(graph, lambda: len(heard) == 20)
-    assert [message.point.x for message in heard] == [float(number) for number in range(20)]
-    assert [message.header.seq for message in heard] == list(range(1, 21))
 
 
 def test_a_thread_may_do_all_that_a_node_does(graph: Graph) -> None:
@@ -203,29 +182,6 @@ def test_the_parameter_server_bears_several_threads(transport: Any) -> None:
     assert problems == []
     assert len([name for name in node.param_names() if name.startswith("/tree")]) == 400
     close(graph)
-
-
-def test_a_real_thread_leaves_topics_in_the_graphs_thread() -> None:
-    graph = Graph(simulated=False)
-    talker, listener = graph.node("talker"), graph.node("listener")
-    publisher, subscriber = talker.publisher("chatter", String), listener.subscriber("chatter", String)
-    publisher.wait_for_subscribers()
-    left: list[int] = []
-    dropped_in: list[int | None] = []
-    talker.drop_publication = lambda _: dropped_in.append(threading.get_ident())  # type: ignore[method-assign]
-
-    def leave() -> None:
-        subscriber.unregister()
-        publisher.unregister()
-        left.append(1)
-
-    thread = threading.Thread(target=leave)
-    graph.scheduler.call_soon(thread.start)
-    graph.run(10, until=lambda: bool(left))
-    thread.join()
-    assert dropped_in == [threading.get_ident()]
-    assert graph.master.getSystemState("/x")[2][1] == [["/rosout", ["/rosout"]]]
-    graph.shutdown()
 
 
 def test_the_main_program_runs_beside_a_thread_that_drives() -> None:
@@ -355,24 +311,6 @@ def test_a_call_from_another_thread_leaves_the_scheduler_in_its_thread(graph: Gr
     assert not caller.is_alive()
     assert graph.scheduler.is_scheduler_thread()
     assert "/chatter" in node.subscriptions
-
-
-def test_in_simulated_time_a_call_from_another_thread_waits_for_whoever_drives() -> None:
-    graph = Graph()
-    node = graph.node("node")
-    made_in: list[int] = []
-
-    def call() -> None:
-        graph.scheduler.run_in_scheduler(lambda: made_in.append(threading.get_ident()))
-
-    caller = threading.Thread(target=call)
-    caller.start()
-    while caller.is_alive():
-        graph.run(0.1)
-    assert made_in == [threading.get_ident()]
-    assert graph.scheduler.is_scheduler_thread()
-    assert node.name in graph.nodes
-    graph.shutdown()
 
 
 def test_a_run_goes_on_when_the_thread_that_drove_the_graph_has_stopped() -> None:

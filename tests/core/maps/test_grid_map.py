@@ -87,10 +87,3 @@ def test_a_message_that_is_no_map_is_told(change, error, said):
         setattr(message.info, name, value)
     with pytest.raises(error, match=said):
         GridMap.from_message(message)
-
-
-def test_an_origin_that_is_no_number_is_told():
-    message = GridMap(CELLS, 0.05, (0.0, 0.0, 0.0)).to_message()
-    message.info.origin.position.x = math.inf
-    with pytest.raises(MapMetadataError, match=r"its origin is \(inf, "):
-        GridMap.from_message(message)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 import struct
 import tracemalloc
 from pathlib import Path
@@ -150,21 +149,16 @@ def test_a_text_pgm_a_palette_16_bits_and_1_bit_are_read(write, tmp_path):
         ("resolution", None, "no field 'resolution'"),
         ("resolution", "0", "'resolution' is 0"),
         ("resolution", "-0.05", "'resolution' is -0.05"),
-        ("resolution", ".nan", "'resolution' is nan"),
-        ("resolution", ".inf", "'resolution' is inf"),
         ("resolution", "1.0e-320", "'resolution' is 1e-320; it must be .* 1e-06 or more"),
         ("resolution", "1.0e+308", r"'resolution' is 1e\+308; .* no more than 1e\+09"),
         ("resolution", f"'{'x' * 100}'", f"'resolution' is '{'x' * 56}[.][.][.]; it must"),
         ("resolution", "fine", "'resolution' is 'fine'"),
-        ("resolution", "[0.05]", "'resolution' is"),
-        ("resolution", "true", "'resolution' is True"),
         ("origin", None, "no field 'origin'"),
         ("origin", "[0, 0]", "x, y and yaw"),
         ("origin", "[0, 0, .nan]", "'origin' is nan"),
         ("origin", "[0, a, 0]", "'origin' is 'a'"),
         ("origin", "0", "x, y and yaw"),
         ("occupied_thresh", None, "no field 'occupied_thresh'"),
-        ("occupied_thresh", ".nan", "'occupied_thresh' is nan"),
         ("negate", None, "no field 'negate'"),
         ("negate", "false", "'negate' is False; it must be 0 or 1"),
         ("negate", "0.5", "'negate' is 0.5"),
@@ -185,21 +179,6 @@ def test_an_error_names_the_file_and_the_field(write, name, value, part):
 def test_a_misspelt_field_is_named(write):
     path = write(occupied_thresh=None, ocupied_thresh="0.65")
     with pytest.raises(MapError, match="ocupied_thresh: did you mean occupied_thresh"):
-        load_map(path)
-
-
-def test_a_line_that_is_not_yaml_is_named(write):
-    path = write()
-    path.write_text(path.read_text(encoding="utf-8") + "mode: [trinary\n", encoding="utf-8")
-    with pytest.raises(MapError, match=rf"{re.escape(str(path))}:8: this is not YAML: "):
-        load_map(path)
-
-
-@pytest.mark.parametrize("text", ["{", "a: b: c", "\t- x", "just words", "", "- 1\n- 2", "3"])
-def test_what_is_not_yaml_or_has_no_fields_is_no_map(tmp_path, text):
-    path = tmp_path / "map.yaml"
-    path.write_text(text, encoding="utf-8")
-    with pytest.raises(MapError, match=r"map\.yaml"):
         load_map(path)
 
 
@@ -281,28 +260,6 @@ def test_a_map_is_small_plain_yaml(tmp_path, text, said):
         load_map(tmp_path / "map.yaml")
 
 
-@pytest.mark.parametrize("field", ["resolution", "occupied_thresh", "free_thresh", "negate", "origin", "image"])
-@pytest.mark.parametrize(
-    "value",
-    [
-        "2001-01-01",
-        "2001-01-01 10:00:00",
-        "true",
-        "[1, 2]",
-        "{a: 1}",
-        ".nan",
-        "!!binary aGk=",
-        "!!set {a}",
-        "null",
-        "''",
-    ],
-)
-def test_what_is_no_number_and_no_name_is_told_with_its_line(write, field, value):
-    path = write([[0, 255]], **{field: value})
-    with pytest.raises(MapError, match=rf"{path.name}:\d: the field '{field}' is "):
-        load_map(path)
-
-
 @pytest.mark.parametrize(
     "data",
     [
@@ -325,12 +282,6 @@ def test_an_image_is_a_file(write, image):
     path = write([[0, 255]], image=f'"{image[1:-1]}"' if image.startswith("'") else image)
     with pytest.raises(MapError, match=r"map\.yaml:"):
         load_map(path)
-
-
-def test_a_map_of_10000_by_10000_cells_is_read(write, tmp_path):
-    path = write([[0, 255]])
-    (tmp_path / "map.png").write_bytes(b"P5 10000 10000 255\n" + bytes(10_000 * 10_000))
-    assert load_map(path).occupancy.shape == (10_000, 10_000)
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-from rosmini.core.errors import CallbackError
 from rosmini.core.graph import Graph
 from rosmini.core.message_filters import (
     ApproximateTimeSynchronizer,
@@ -85,28 +84,6 @@ def test_a_callback_that_blocks_gets_one_set_after_another(graph):
     assert events == [(what, name) for name in "123" for what in ("begin", "end")]
 
 
-def test_an_error_of_a_callback_is_that_of_the_users_line_and_the_next_set_comes(sim):
-    node = sim.node("fusion")
-    inputs = [Subscriber(node, topic, PointStamped) for topic in ("a", "b")]
-    seen = []
-
-    def callback(one, _):
-        seen.append(one.header.frame_id)
-        if one.header.frame_id == "bad":
-            raise ValueError("no good")
-
-    TimeSynchronizer(inputs, 10).registerCallback(callback)
-    a, b = publishers(sim.node("robot"), "a", "b")
-    a.publish(at(1, "bad"))
-    b.publish(at(1))
-    with pytest.raises(CallbackError, match=r"(?s)no good.*test_filters.py"):
-        sim.run(1.0)
-    a.publish(at(2, "good"))
-    b.publish(at(2))
-    sim.run(1.0)
-    assert seen == ["bad", "good"]
-
-
 def test_sets_behind_one_that_fails_are_not_kept_back():
     inputs = [SimpleFilter(), SimpleFilter()]
     synchroniser = TimeSynchronizer(inputs, 10)
@@ -155,18 +132,6 @@ def test_a_stamp_that_is_changed_later_does_not_change_the_cache():
         cache.getInterval(Time(2), Time(1))
 
 
-def test_the_last_of_a_cache_is_the_first_not_older_than_what_came_last():
-    """So it is in message_filters, where this matters only for stamps out of order."""
-    source = SimpleFilter()
-    cache = Cache(source, 3)
-    for seconds in (5, 3):
-        source.signalMessage(at(seconds))
-    assert cache.getLastestTime() == Time(3)
-    assert cache.getLast().header.stamp == Time(5)
-    assert cache.cache_times == [Time(5), Time(3)]
-    assert cache.getOldestTime() == Time(5)
-
-
 def test_filters_of_filters(sim):
     """A cache takes the output of a custom filter and passes it to a synchroniser, which finds the node through it."""
     node = sim.node("n")
@@ -189,22 +154,6 @@ def test_filters_of_filters(sim):
     assert synchroniser.node is node
     with pytest.raises(MessageFilterError, match="made for 2 filters"):
         synchroniser.connectInput([first])
-
-
-def test_queues_are_there_to_look_into_and_to_empty():
-    inputs = [SimpleFilter(), SimpleFilter()]
-    both = TimeSynchronizer(inputs, 2)
-    seen = []
-    both.registerCallback(lambda *pair: seen.append(pair))
-    for seconds in (3, 1, 2):
-        inputs[0].signalMessage(at(seconds))
-    assert list(both.queues[0]) == [Time(3), Time(2)]  # the oldest stamp gave way
-    both.queues[0].clear()
-    inputs[1].signalMessage(at(3))
-    assert seen == []
-    both.add(at(3), both.queues[0])
-    assert len(seen) == 1
-    assert [len(queue) for queue in both.queues] == [0, 0]
 
 
 def test_an_input_without_stamps_is_reported_once(sim, capsys):

@@ -41,57 +41,6 @@ def in_order(story, gap):
     return ordered
 
 
-def check_sets(sets, count):
-    """Each set has one message of each input, in their order, and no message is in two sets."""
-    assert all([message[0] for message in one] == list(range(count)) for one in sets)
-    used = [message[2] for one in sets for message in one]
-    assert len(used) == len(set(used))
-
-
-@given(STORIES)
-def test_exact_sets_have_one_stamp_and_use_no_message_twice(given_story):
-    count, story, queue_size = given_story
-    sets = told(ExactTime(count, queue_size), story)
-    check_sets(sets, count)
-    assert all(len({message[1] for message in one}) == 1 for one in sets)
-
-
-@given(STORIES)
-def test_exact_sets_increase_and_none_is_missed_where_inputs_are_in_order(given_story):
-    count, story, _ = given_story
-    ordered = in_order(story, 1)
-    sets = told(ExactTime(count, 100), ordered)
-    stamps = [one[0][1] for one in sets]
-    common = set.intersection(*({stamp for other, stamp in ordered if other == index} for index in range(count)))
-    assert stamps == sorted(common)
-
-
-@given(STORIES, st.integers(1, 30))
-def test_approximate_sets_are_within_the_slop_and_use_no_message_twice(given_story, slop):
-    count, story, queue_size = given_story
-    sets = told(ApproximateTime(count, queue_size, slop), story)
-    check_sets(sets, count)
-    for one in sets:
-        stamps = [message[1] for message in one]
-        assert max(stamps) - min(stamps) < slop
-
-
-@given(STORIES, st.integers(1, 30))
-def test_approximate_sets_increase_where_messages_are_further_apart_than_the_slop(given_story, slop):
-    count, story, queue_size = given_story
-    sets = told(ApproximateTime(count, queue_size, slop), in_order(story, slop + 1))
-    for earlier, later in itertools.pairwise(sets):
-        assert all(one[1] < other[1] for one, other in zip(earlier, later, strict=True))
-
-
-@given(STORIES)
-def test_the_queues_stay_within_their_size(given_story):
-    count, story, queue_size = given_story
-    for policy in (ExactTime(count, queue_size), ApproximateTime(count, queue_size, 5)):
-        told(policy, story)
-        assert all(len(queue) <= queue_size for queue in policy.queues)
-
-
 @given(STORIES, st.integers(1, 30))
 def test_no_set_is_possible_any_more_that_was_complete_when_its_last_message_came(given_story, slop):
     """What is left in the queues with the message that came last is no set, by trial of all combinations."""

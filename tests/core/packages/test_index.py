@@ -183,11 +183,6 @@ def test_ignored_and_nested_and_hidden_folders_are_not_entered(tmp_path: Path) -
     assert sorted(rospkg.RosPack([str(tmp_path)]).list()) == ["a", "g"]
 
 
-def test_a_folder_of_the_path_may_itself_be_a_package(tmp_path: Path) -> None:
-    folder = make(tmp_path / "one", "one")
-    assert PackageIndex([str(folder)]).path("one") == folder
-
-
 @posix_only
 def test_links_are_followed_and_may_run_in_a_circle(tmp_path: Path) -> None:
     make(tmp_path / "elsewhere" / "pkg", "linked")
@@ -209,39 +204,21 @@ def test_of_two_packages_of_one_name_the_first_wins_however_the_disk_lists_them(
     assert PackageIndex([base / "c", base / "b"]).path("same") == base / "c"
 
 
-def test_a_metapackage_is_told_apart(tmp_path: Path) -> None:
-    more = "  <exec_depend>x</exec_depend>\n  <export><metapackage/></export>\n"
-    make(tmp_path / "meta", "meta", more=more)
-    package = PackageIndex([tmp_path]).find("meta")
-    assert package.is_metapackage
-    assert package.depends == ("x",)
-
-
-def test_conditions_are_those_of_ros_1_and_python_3(tmp_path: Path) -> None:
-    text = MANIFEST.format(
-        name="both",
-        version="1.0.0",
-        more='  <depend condition="$ROS_VERSION == 1">rospy</depend>\n'
-        '  <depend condition="$ROS_VERSION == 2">rclpy</depend>\n',
-    ).replace('format="2"', 'format="3"')
-    write(tmp_path / "both" / "package.xml", text)
-    assert PackageIndex([tmp_path]).find("both").depends == ("rospy",)
-
-
-def test_a_package_made_later_is_found(tmp_path: Path) -> None:
-    index = PackageIndex([tmp_path])
+def test_what_a_manifest_says(tmp_path: Path) -> None:
+    """Conditions are those of ROS 1; the folder of the path may itself be the package; a refresh reads it again."""
+    condition = '<depend condition="$ROS_VERSION == {}">{}</depend>\n'
+    more = condition.format(1, "rospy") + condition.format(2, "rclpy")
+    index = PackageIndex([str(tmp_path / "one")])
     assert index.names() == []
-    make(tmp_path / "late", "late")
-    assert index.find("late").name == "late"
-
-
-def test_refresh_forgets(tmp_path: Path) -> None:
-    make(tmp_path / "p", "p", version="1.0.0")
-    index = PackageIndex([tmp_path])
-    assert index.find("p").version == "1.0.0"
-    make(tmp_path / "p", "p", version="2.0.0")
+    make(tmp_path / "one", "one", more=more)
+    manifest = tmp_path / "one" / "package.xml"
+    manifest.write_text(manifest.read_text(encoding="utf-8").replace('format="2"', 'format="3"'), encoding="utf-8")
+    package = index.find("one")
+    assert (package.path, package.depends, package.is_metapackage) == (tmp_path / "one", ("rospy",), False)
+    make(tmp_path / "one", "one", more="  <exec_depend>x</exec_depend>\n  <export><metapackage/></export>\n")
     index.refresh()
-    assert index.find("p").version == "2.0.0"
+    package = index.find("one")
+    assert (package.depends, package.is_metapackage) == (("x",), True)
 
 
 def test_an_unknown_package_names_the_folders_and_the_nearest(tmp_path: Path) -> None:
@@ -319,37 +296,6 @@ def test_a_manifest_against_the_rules_names_what_is_at_fault(
     assert "\n" not in str(caught.value)
 
 
-WHOLE = MANIFEST.format(name="p", version="1.0.0", more="  <depend>std_msgs</depend>\n").encode()
-PIECES = st.one_of(
-    st.binary(max_size=8), st.sampled_from([b"<name>", b"</name>", b"<depend/>", b"&a;", b"]]>", b"<!--"])
-)
-
-
-@given(data=st.binary(max_size=200))
-def test_no_bytes_in_a_manifest_raise_anything_else(data: bytes, tmp_path_factory: pytest.TempPathFactory) -> None:
-    folder = tmp_path_factory.mktemp("fuzz") / "p"
-    folder.mkdir()
-    (folder / "package.xml").write_bytes(data)
-    with pytest.raises(DefinitionError):
-        PackageIndex([folder.parent]).find("p")
-
-
-@given(start=st.integers(0, len(WHOLE)), length=st.integers(0, 40), piece=PIECES)
-def test_a_damaged_manifest_is_read_or_refused(
-    start: int, length: int, piece: bytes, tmp_path_factory: pytest.TempPathFactory
-) -> None:
-    folder = tmp_path_factory.mktemp("fuzz") / "p"
-    folder.mkdir()
-    (folder / "package.xml").write_bytes(WHOLE[:start] + piece + WHOLE[start + length :])
-    index = PackageIndex([folder.parent])
-    for name in [*index.names(), "p"]:
-        try:
-            package = index.find(name)
-        except (DefinitionError, UnknownPackage):
-            continue
-        assert (package.name, package.path) == (name, folder)
-
-
 # ---- files ----
 
 
@@ -384,53 +330,36 @@ def ws(tmp_path: Path) -> Path:
     return folder
 
 
-def test_scripts_are_found_in_their_folders(ws: Path) -> None:
-    index = PackageIndex([ws.parent])
-    assert index.executables("talk") == ["listener.py", "talker.py"]
-    talker = index.find_executable("talk", "talker.py")
-    assert (talker.path, talker.has_run_bit) == (ws / "scripts" / "talker.py", True)
-
-
 @posix_only
-def test_a_python_script_without_run_bit_is_found_and_told_apart(ws: Path) -> None:
-    listener = PackageIndex([ws.parent]).find_executable("talk", "listener.py")
-    assert (listener.path, listener.has_run_bit) == (ws / "nodes" / "listener.py", False)
-
-
-@posix_only
-def test_a_program_counts_anywhere_if_it_has_the_run_bit(ws: Path) -> None:
-    program = write(ws / "tools" / "go", run_bit=True)
-    assert PackageIndex([ws.parent]).find_executable("talk", "go").path == program
-
-
-def test_scripts_win_over_sources_of_the_same_name(ws: Path) -> None:
+def test_executables_are_scripts_and_programs_with_the_run_bit(ws: Path) -> None:
+    write(ws / "tools" / "go", run_bit=True)
     write(ws / "src" / "talker.py", run_bit=True)
-    found = PackageIndex([ws.parent]).find_executable("talk", "talker.py")
-    assert found.path == ws / "scripts" / "talker.py"
-
-
-def test_a_mistyped_executable_names_the_nearest(ws: Path) -> None:
     index = PackageIndex([ws.parent])
-    with pytest.raises(ScriptError, match=r"did you mean talker\.py\?") as caught:
-        index.find_executable("talk", "talker")
-    assert str(ws) in str(caught.value)
-    with pytest.raises(ScriptError, match=r"the package has: listener\.py, talker\.py"):
-        index.find_executable("talk", "zzz")
+    assert index.executables("talk") == ["go", "listener.py", "talker.py"]
+    for name, path, has_run_bit in (
+        ("talker.py", "scripts/talker.py", True),  # not the one in src/
+        ("listener.py", "nodes/listener.py", False),
+        ("go", "tools/go", True),
+    ):
+        found = index.find_executable("talk", name)
+        assert (found.path, found.has_run_bit) == (ws / path, has_run_bit)
 
 
-def test_a_file_that_may_not_be_run_says_how_to_allow_it(ws: Path) -> None:
-    with pytest.raises(ScriptError, match=r"exists but is not executable.*chmod \+x .*start\.launch"):
-        PackageIndex([ws.parent]).find_executable("talk", "start.launch")
-
-
-def test_a_package_without_executables_says_so(own: PackageIndex) -> None:
-    with pytest.raises(ScriptError, match="has no executables"):
-        own.find_executable("std_msgs", "talker.py")
-
-
-def test_an_executable_of_an_unknown_package(own: PackageIndex) -> None:
-    with pytest.raises(UnknownPackage, match="did you mean std_msgs"):
-        own.find_executable("std_msg", "talker.py")
+@pytest.mark.parametrize(
+    ("package", "name", "error", "says"),
+    [
+        ("talk", "talker", ScriptError, r"ws.talk.*did you mean talker\.py\?|did you mean talker\.py\?.*ws.talk"),
+        ("talk", "zzz", ScriptError, r"the package has: listener\.py, talker\.py"),
+        ("talk", "start.launch", ScriptError, r"not executable.*chmod \+x .*start\.launch"),
+        ("std_msgs", "talker.py", ScriptError, "has no executables"),
+        ("std_msg", "talker.py", UnknownPackage, "did you mean std_msgs"),
+    ],
+)
+def test_an_executable_that_is_not_found_names_the_nearest(
+    ws: Path, package: str, name: str, error: type[Exception], says: str
+) -> None:
+    with pytest.raises(error, match=f"(?s){says}"):
+        PackageIndex([ws.parent, assets_dir() / "ros"]).find_executable(package, name)
 
 
 def test_built_in_nodes_come_from_entry_points(

@@ -42,30 +42,11 @@ def test_arithmetic_is_pythons(left: float, right: float, sign: str) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "__import__('os').system('true')",
-        "open('/etc/passwd')",
-        "math.__class__",
-        "().__class__",
-        "'a' * 9",
-        "True",
-        "lambda: 0",
-        "math.sqrt(x=2)",
-        "tau",
-        "pi()",
-        "1j",
-        "",
-        "rad(",
-        "2 pi",
-        "1/0",
-        "math.sqrt(-1)",
-        "(-8) ** 0.5",
-        "9.0 ** 9 ** 9",
-        "1" + "+1" * 200,
-        "-" * 150,
-        "math.sqrt(1, 2)",
-        "1\x00",
+        "__import__('os').system('true')", "open('/etc/passwd')", "math.__class__", "().__class__", "'a' * 9", "True",
+        "lambda: 0", "math.sqrt(x=2)", "tau", "pi()", "1j", "", "rad(", "2 pi", "1/0", "math.sqrt(-1)", "(-8) ** 0.5",
+        "9.0 ** 9 ** 9", "1" + "+1" * 200, "-" * 150, "math.sqrt(1, 2)", "1\x00",
     ],
-)
+)  # fmt: skip
 def test_what_is_no_arithmetic_is_refused(text: str) -> None:
     with pytest.raises(RosParamException):
         radians(text)

@@ -87,18 +87,3 @@ def test_one_value_is_one_document(params: ParamClient) -> None:
         params.set("/", "1")
     with pytest.raises(RosParamException, match="empty"):
         params.set("/x", "null")
-
-
-def test_scripts_may_send_any_tree(params: ParamClient) -> None:
-    with pytest.raises(RosParamException, match=r"parameter /x/a\[0\]: a type cannot be stored"):
-        params.upload("/x", {"a": [object]})
-    params.upload("/x", {})
-    assert params.list_params("/x") == []
-
-
-def test_changes_by_a_file_are_told(graph: Graph, params: ParamClient) -> None:
-    heard = []
-    graph.node("node").on_param("/robot", heard.append)
-    params.loads("speed: 1\nname: burger", "/robot")
-    graph.run(0.1)
-    assert heard[-1] == {"speed": 1, "name": "burger"}

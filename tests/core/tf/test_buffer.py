@@ -8,7 +8,6 @@ import pytest
 from rosmini.core.errors import ROSException
 from rosmini.core.graph import Graph
 from rosmini.core.tf import (
-    Buffer,
     ExtrapolationException,
     LookupException,
     StaticTransformBroadcaster,
@@ -95,18 +94,6 @@ def test_the_advanced_form_waits(graph, moving):
     assert not buffer.can_transform_full("base", now, "base", then, "map")
 
 
-def test_repeated_data_are_told_once(graph, moving, capsys):
-    buffer = listening(graph)
-    fake = TransformBroadcaster(graph.node("fake"))
-    fake.node.timer(0.05, lambda event: fake.send("odom", "base"))
-    graph.run(1)
-    warned = [line for line in capsys.readouterr().err.splitlines() if "TF_REPEATED_DATA" in line]
-    assert len(warned) == 1
-    assert "/robot" in warned[0]
-    assert "/fake" in warned[0]
-    assert len(buffer.tree.edges["base"]) > 1
-
-
 def test_what_is_in_a_frame_moves_to_another(graph):
     broadcaster = StaticTransformBroadcaster(graph.node("calibration"))
     broadcaster.send("map", "base", (1, 2, 3), (0, 0, 1, 1))  # a quarter turn to the left
@@ -179,12 +166,6 @@ def test_prefixes(graph):
     buffer = listening(graph)
     assert buffer.wait_for_transform("map", "robot1_tf/base")
     assert resolve("", "/odom") == "odom"
-
-
-def test_a_buffer_without_a_node_does_not_wait():
-    buffer = Buffer(None)
-    with pytest.raises(TransformException, match="has no node"):
-        buffer.wait_for_transform("a", "b")
 
 
 def test_a_node_that_ends_while_it_waits(graph):

@@ -74,15 +74,3 @@ def test_a_parameter_of_the_wrong_type_is_reported_and_replaced(
     enabled.node("setter").set_param("/statistics_window_min_elements", "many")
     assert heard_in(enabled, 5, 10, String("hello"))
     assert "/statistics_window_min_elements" in capsys.readouterr().err
-
-
-def test_an_unregistered_subscriber_leaves_the_topic(enabled: Graph) -> None:
-    listener, talker = enabled.node("listener"), enabled.node("talker")
-    subscriber = listener.subscriber("chatter", String)
-    publisher = talker.publisher("chatter", String)
-    publisher.wait_for_subscribers()
-    publisher.publish("hello")
-    enabled.run(1)
-    assert "/statistics" in listener.publications
-    subscriber.unregister()
-    assert "/statistics" not in listener.publications
