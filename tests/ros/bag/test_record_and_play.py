@@ -61,9 +61,8 @@ def texts(path: Path, topic: str = "/chatter") -> list[str]:
     return [message.data for _, message, _ in Bag(path).read_messages(topic)]
 
 
-@pytest.mark.parametrize("buffsize", [0, 100_000])
-def test_nothing_is_lost_at_10_khz(graph, tmp_path, buffsize):
-    recorder = record(graph, tmp_path / "x", "/chatter", buffsize=buffsize)
+def test_nothing_is_lost_at_10_khz(graph, tmp_path):
+    recorder = record(graph, tmp_path / "x", "/chatter")
     lane = talker(graph, 4_000, 10_000)
     graph.run(until=lambda: lane.idle)
     assert recorder.stop() == [tmp_path / "x.bag"]
@@ -211,7 +210,7 @@ for number in range(50 + int({count})):
 
 @pytest.mark.skipif(sys.platform == "win32", reason="limits of file sizes are POSIX's")
 @pytest.mark.parametrize(
-    ("count", "words"), [(1000, []), (60, []), *nightly((1000, ["--lz4"]), (1000, ["--split", "--size", "1"]))]
+    ("count", "words"), [(1000, []), *nightly((60, []), (1000, ["--lz4"]), (1000, ["--split", "--size", "1"]))]
 )
 def test_a_recording_on_a_full_disk_fails_and_stays_readable(tmp_path, count, words):
     script = tmp_path / "talker.py"
@@ -230,15 +229,6 @@ def test_a_recording_on_a_full_disk_fails_and_stays_readable(tmp_path, count, wo
     assert f"It holds {len(found)} messages" in done.stderr
     assert len(found) > 20
     assert found == sorted(found)
-
-
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full")
-def test_a_recording_that_cannot_begin_fails(tmp_path):
-    (tmp_path / "talker.py").write_text(TALKER.format(count=0), encoding="utf-8")
-    (tmp_path / "trip.bag.active").symlink_to("/dev/full")
-    done = run([sys.executable, "-c", LIMITED, str(tmp_path / "talker.py"), "-O", str(tmp_path / "trip")])  # fmt: skip
-    assert done.returncode == 1, done.stdout + done.stderr
-    assert "No space left on device" in done.stderr
 
 
 def test_a_disk_that_fails_ends_the_recording(graph, tmp_path, monkeypatch):
@@ -558,7 +548,7 @@ def test_ctrl_c_ends_a_recording_in_good_order(tmp_path):
     assert not (tmp_path / "x.bag.active").exists()
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", [0, *nightly(*range(1, 5))])
 def test_what_arrives_before_all_topics_are_subscribed_to_is_recorded(graph, tmp_path, seed):
     """A Master elsewhere takes its time for each of the topics."""
     RestlessMaster(graph, seed)

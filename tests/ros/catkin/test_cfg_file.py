@@ -234,14 +234,3 @@ def test_nothing_is_ever_run(lines: list[tuple[str, str]], with_head: bool) -> N
         with pytest.raises(DefinitionError):
             read_cfg(path)
         assert not mark.exists()
-
-
-@given(
-    st.one_of(st.binary(max_size=200), st.text(max_size=200).map(lambda text: (HEAD + text).encode("utf-8", "replace")))
-)
-def test_any_bytes_are_read_or_are_an_error_of_ours(data: bytes) -> None:
-    with TemporaryDirectory() as folder:
-        path = Path(folder, "Robot.cfg")
-        path.write_bytes(data)
-        with pytest.raises(DefinitionError):
-            read_cfg(path)

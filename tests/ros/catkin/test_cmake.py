@@ -106,18 +106,3 @@ def test_any_text_is_read_or_refused(text: str) -> None:
         line = error.line
     assert line is not None
     assert 1 <= line <= text.count("\n") + 1
-
-
-@given(st.lists(st.lists(st.text(max_size=8).filter(lambda text: "]===]" not in text + "]"), max_size=4), max_size=5))
-def test_what_is_written_in_brackets_is_read_back(commands: list[list[str]]) -> None:
-    def bracket(word: str) -> str:
-        return f"[===[\n{word}]===]"
-
-    lines = [f"m{number}({' '.join(map(bracket, words))})" for number, words in enumerate(commands)]
-    text = "\n".join(lines)
-    assert statements(text) == [(f"m{number}", words) for number, words in enumerate(commands)]
-
-
-@given(st.lists(st.text(st.characters(exclude_characters='"\\$', exclude_categories=["Cs"]), max_size=12), max_size=6))
-def test_what_is_quoted_is_read_back(words: list[str]) -> None:
-    assert statements("m(" + " ".join(f'"{word}"' for word in words) + ")") == [("m", words)]

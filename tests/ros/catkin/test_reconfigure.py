@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import os
-import sys
 from pathlib import Path
 
 import pytest
 
 from rosmini.ros.scripts import ScriptSpec, run_scripts
 
-from ...processes import run
 from .conftest import Bench
 
 PYTHON = "lib/python3/dist-packages"
@@ -68,27 +66,6 @@ def drive(bench: Bench, *, messages: bool = False) -> Path:
     more = "from drive.msg import Num; assert Num(num=3).num == 3" if messages else ""
     bench.write("drive", "scripts/talker.py", SCRIPT.format(more=more)).chmod(0o755)
     return folder
-
-
-def test_a_module_has_what_real_ones_have(bench: Bench) -> None:
-    drive(bench)
-    report = bench.make()
-    assert (report.status, report.built, report.findings) == (0, ["drive"], [])
-    code = (
-        "from drive.cfg import DriveConfig as c\n"
-        "print([c.defaults, c.min, c.max, c.type, c.level, c.all_level, c.Drive_Low, c.Drive_High])\n"
-        "print(sorted(c.config_description))\n"
-    )
-    env = dict(os.environ, PYTHONPATH=str(bench.base / "devel" / PYTHON))
-    first, second = run([sys.executable, "-c", code], env=env, check=True).stdout.splitlines()
-    inf = float("inf")
-    assert eval(first, {"inf": inf}) == [
-        {"gear": 1, "speed": 0.2, "name": "wheels"}, {"gear": 1, "speed": 0.0, "name": ""},
-        {"gear": 2, "speed": inf, "name": ""}, {"gear": "int", "speed": "double", "name": "str"},
-        {"gear": 1, "speed": 2, "name": 4}, 7, 1, 2,
-    ]  # fmt: skip
-    keys = "cstate groups id name parameters parent srcfile srcline state type"
-    assert second == str(keys.split())
 
 
 @pytest.mark.parametrize("messages", [False, True])

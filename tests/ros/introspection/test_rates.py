@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.ros.introspection.rates import Arrivals, Delays, Sizes, rate_table, rate_text
+from rosmini.ros.introspection.rates import Arrivals, Sizes, rate_table, rate_text
 
 
 @given(st.lists(st.integers(1, 10**12), min_size=1, max_size=50), st.integers(-1, 20))
@@ -53,15 +53,6 @@ def test_messages_at_one_instant_have_no_rate() -> None:
     assert found.rate == 0.0
     assert rate_text(found).startswith("average rate: 0.000\n")
     assert rate_table({"/t": found}).splitlines()[2].split()[1] == "0.0"
-
-
-def test_delays() -> None:
-    delays = Delays(-1)
-    for number in range(3):
-        delays.heard(10**9 * (number + 1), 10**9 * (number + 1) - 10**8)
-    found = delays.statistics()
-    assert found is not None
-    assert (found.mean, found.deviation, found.window) == (0.1, 0.0, 3)
 
 
 @pytest.mark.parametrize(("size", "says"), [(10, "15.00B/s"), (5000, "7.50KB/s"), (2_000_000, "3.00MB/s")])

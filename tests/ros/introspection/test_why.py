@@ -10,7 +10,6 @@ from rosmini import Graph
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.msgs.sensor_msgs.msg import LaserScan
 from rosmini.msgs.std_msgs.msg import String
-from rosmini.msgs.std_srvs.srv import Trigger
 from rosmini.ros.introspection.why import NothingRecorded, explain
 from tests.core.graph.byte_transport import ByteTransport
 
@@ -91,33 +90,12 @@ def test_a_loop_of_its_own_tells_what_it_had_heard(graph: Graph) -> None:
     assert "    before that: /loop got message 4 on /scan from /laser, at 1000.800 s" in str(why)
 
 
-def test_a_service_and_a_node(graph: Graph) -> None:
-    server = graph.node("server")
-    server.service("it", Trigger, lambda _: (True, "fine"))
-    client = graph.node("client")
-    client.service_client("it", Trigger)()
-    (why,) = explain(history(graph), "/it")
-    assert why.steps[0].what == "/client called /it of /server"
-    assert why.end == "and that was asked for here: by a cell, or the main program"
-    client.loginfo("good morning")
-    (why,) = explain(history(graph), "/client")
-    assert why.steps[0].what == "/client published message 1 on /rosout"
-
-
 def test_an_unknown_name_is_answered_with_the_nearest(graph: Graph) -> None:
     with pytest.raises(NothingRecorded, match=r"/chatter.*no topic yet"):
         explain(history(graph), "/chatter")
     graph.node("talker").publisher("chatter", String, latch=True).publish("hello")
     with pytest.raises(NothingRecorded, match="/chatter"):
         explain(history(graph), "/chater")
-
-
-def test_what_is_no_longer_kept_is_not_guessed(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> None:
-    robot(graph)
-    graph.run(1.05)
-    monkeypatch.setattr(history(graph), "event", lambda _: None)
-    (why,) = explain(history(graph), "/cmd_vel")
-    assert why.end == "what led to that is no longer kept"
 
 
 def test_the_picture_has_the_first_cause_above(graph: Graph) -> None:

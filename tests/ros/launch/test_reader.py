@@ -30,28 +30,6 @@ def refused(inside: str, **options: Any) -> LaunchError:
 # ---- what a file means ----
 
 
-def test_a_node_has_its_namespace_its_remappings_and_its_parameters() -> None:
-    plan = plan_of(
-        """<remap from="a" to="b"/>
-        <group ns="robot1">
-          <remap from="scan" to="/front/scan"/>
-          <param name="~shared" value="1"/>
-          <node pkg="p" type="t" name="n" args="x 'y z'">
-            <remap from="a" to="c"/>
-            <param name="rate" value="10.0"/>
-          </node>
-        </group>
-        <node pkg="p" type="t" name="m"/>"""
-    )
-    first, second = plan.nodes
-    assert (first.full_name, second.full_name) == ("/robot1/n", "/m")
-    assert first.remappings == (("scan", "/front/scan"), ("a", "c"))
-    assert second.remappings == (("a", "b"),)  # what a group remaps stays in it
-    assert plan.parameters == {"/robot1/n/shared": 1, "/robot1/n/rate": 10.0}
-    assert first.words() == ("x", "y z", "scan:=/front/scan", "a:=c", "__name:=n")
-    assert first.words(with_namespace=True)[-1] == "__ns:=/robot1"
-
-
 def test_the_last_setting_wins_and_is_told() -> None:
     plan = plan_of('<param name="a" value="1"/>\n<param name="a" value="2"/>\n<param name="b" value="3"/>')
     (setting,) = plan.overridden()
@@ -124,20 +102,6 @@ def test_an_arg_that_an_include_lacks_is_given_there(tmp_path: Path) -> None:
     assert str(error) == f"{inner}:1: requires the 'a' arg to be set: {way}"
 
 
-def test_a_default_needs_nothing_where_a_value_is_given() -> None:
-    plan = plan_of(
-        '<arg name="a" default="$(env NOBODY_HAS_THIS)"/><param name="b" value="$(arg a)"/>', args={"a": "5"}
-    )
-    assert plan.parameters == {"/b": 5}
-
-
-def test_an_include_passes_a_default_on(tmp_path: Path) -> None:
-    inner = tmp_path / "inner.launch"
-    inner.write_text('<launch><arg name="a"/><param name="b" value="$(arg a)"/></launch>', encoding="utf-8")
-    include = f'<include file="{inner}"><arg name="a" default="$(arg a)0"/></include>'
-    assert plan_of(f'<arg name="a" value="4"/>{include}').parameters == {"/b": 40}
-
-
 def test_what_follows_from_what_is_missing_is_not_told_as_well() -> None:
     error = refused(
         """<arg name="a" default="$(env NOBODY_HAS_THIS)"/>
@@ -155,7 +119,6 @@ def test_what_follows_from_what_is_missing_is_not_told_as_well() -> None:
 @pytest.mark.parametrize(
     ("inside", "said"),
     [
-        ('<node pkg="rospy" name="n"/>', "<node> tag is missing required attribute: 'type'"),
         ('<node pkg="rospy" typ="x" name="n"/>', "did you mean typ?"),
         ('<node pkg="p" type="t" name="robot/n"/>', 'give the namespace as ns="robot"'),
         ('<param name="a" value="1" type="integer"/>', "Unknown type 'integer'; the types are str"),
@@ -254,26 +217,6 @@ def test_what_was_included_wants_its_arguments_to_be_used(tmp_path: Path) -> Non
     )
     with pytest.raises(LaunchError, match=r"outer.launch:2: unused args \[modle\].*did you mean model"):
         read(outer)
-
-
-SOURCES = [path.read_text(encoding="utf-8") for path in sorted(SHAPES.glob("*.launch"))]
-
-
-@given(source=st.sampled_from(SOURCES), data=st.data())
-def test_a_damaged_file_is_read_or_refused_at_its_place(source: str, data: st.DataObject) -> None:
-    start = data.draw(st.integers(0, len(source)))
-    end = data.draw(st.integers(start, min(len(source), start + 40)))
-    put = data.draw(
-        st.sampled_from(["", "<", ">", '"', "$(", ")", "$(arg x)", "$(eval 1/0)", "&x;", "\0", "<node/>", "ns=''"])
-        | st.text(max_size=8)
-    )
-    text = source[:start] + put + source[end:]
-    try:
-        plan = read(text=text.replace("$(dirname)", str(SHAPES)), environ={}, packages=PackageIndex([]))
-    except LaunchError as error:
-        assert (error.missing or error.file) and str(error)  # noqa: PT017
-    else:
-        assert plan.text()
 
 
 TAGS = [

@@ -12,7 +12,7 @@ import pytest
 
 from rosmini import Graph
 from rosmini.msgs import message_class
-from rosmini.ros.launch import Launch, LaunchError, read, roslaunch
+from rosmini.ros.launch import Launch, read
 from rosmini.ros.launch.running import in_graph
 
 from .workspace import make
@@ -152,20 +152,6 @@ def test_parameters_are_cleared_deleted_and_dumped_before_the_nodes_start(graph:
     assert "/gone" not in master.ask("getParamNames")
     assert master.ask("getParam", "/kept") == 1
     assert file.read_text(encoding="utf-8") == "a: 1\n"
-
-
-def test_roslaunch_is_a_function(graph: Graph, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    inside = '<arg name="word"/><node pkg="speaking" type="talker.py" name="talker">'
-    inside += '<param name="greeting" value="$(arg word)"/></node>'
-    monkeypatch.setenv("ROS_PACKAGE_PATH", str(make(tmp_path, talk=inside)))
-    out = io.StringIO()
-    launch = roslaunch("speaking", "talk.launch", graph=graph, console={"stdout": out}, word="hey")
-    graph.run(1.0)
-    assert graph.ask_as("/x").ask("getParam", "/talker/greeting") == "hey"
-    assert launch["talker"].poll() is None
-    launch.stop()
-    with pytest.raises(LaunchError, match="requires the 'word' arg to be set"):
-        roslaunch("speaking", "talk.launch", graph=graph)
 
 
 def test_what_one_process_cannot_do_is_told(tmp_path: Path) -> None:

@@ -108,7 +108,6 @@ def test_tests_pass(tmp_path: Path, capsys: Any) -> None:
 WIRE = """#!/usr/bin/env python3
 import os, subprocess, sys, unittest, xmlrpc.client
 import rosgraph, rospy, rostest
-from std_msgs.msg import String
 
 TOOL = [sys.executable, "-m", "rosmini", "rostopic"]
 
@@ -116,21 +115,11 @@ class TestWire(unittest.TestCase):
     def setUp(self):
         rospy.init_node("hears")
 
-    def test_a_tool_asks_the_master(self):
-        self.assertIn("/chatter", subprocess.check_output([*TOOL, "list"], text=True).split())
 
     def test_a_tool_hears_a_node(self):
         tool = subprocess.Popen([*TOOL, "echo", "-n", "1", "/chatter"], stdout=subprocess.PIPE, text=True)
         self.assertIn("hello", tool.communicate()[0])
 
-    def test_a_node_hears_a_tool(self):
-        words = [*TOOL, "pub", "-r", "20", "/news", "std_msgs/String", "good"]
-        tool = subprocess.Popen(words, stdout=subprocess.DEVNULL)
-        try:
-            self.assertEqual(rospy.wait_for_message("news", String, 50).data, "good")
-        finally:
-            tool.terminate()
-            tool.wait()
 
     def test_the_api_of_a_node(self):
         master = rosgraph.Master("/hears")
@@ -157,7 +146,7 @@ def test_tests_have_a_master_that_other_processes_reach(folder: Path, monkeypatc
     status = main(["test", "speaking", "talk.test"])
     out = capsys.readouterr().out
     assert status == 0, out
-    assert " * TESTS: 7\n" in out
+    assert " * TESTS: 5\n" in out
     assert os.environ["ROS_MASTER_URI"] == "http://localhost:9"
 
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGSTOP")
+pytestmark = [pytest.mark.nightly, pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGSTOP")]
 
 STRING = "std_msgs/String"
 TRIGGER = "std_srvs/Trigger"

@@ -54,6 +54,8 @@ def nested(depth: int) -> bytes:
 
 
 CALL = xmlrpc.client.dumps(("/me",), "getPid").encode()
+BOMB = b"""<?xml version="1.0"?><!DOCTYPE b [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;">]>
+<methodCall><methodName>&b;</methodName><params/></methodCall>"""
 
 
 @pytest.mark.parametrize("what", ["list", "struct"])
@@ -84,6 +86,9 @@ def test_any_bytes_are_a_document_or_refused(data: bytes) -> None:
         (HEAD + b"Content-Length: -1\r\n\r\n", b"400"),
         (HEAD + b"Content-Length: " + b"9" * 30 + b"\r\n\r\n", b"400"),
         (HEAD + b"X: y\r\n" * 50_000, b"431"),
+        (HEAD + b"Content-Length: 100\r\n\r\nshort", b"400"),
+        (HEAD + b"Content-Length: %d\r\n\r\n" % len(BOMB) + BOMB, b"400"),
+        (b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n", b"405"),
         (b"\x00" * 1000, b"400"),
         (b"\n" * 200_000, b""),
         (bytes.fromhex("1603010200010001fc0303") + b"x" * 100, b"400"),

@@ -97,18 +97,6 @@ def test_a_sleeping_scheduler_is_woken_for_what_others_want(wire: Wire) -> None:
         thread.join()
 
 
-def test_a_scheduler_that_has_something_to_do_already_reads_by_itself_the_next_time(
-    wire: Wire, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """The I/O thread is not given the reading back: whoever answers fast would keep it there."""
-    monkeypatch.setattr(idle_reads, "BEAT_S", 1000.0)
-    wire.idle.sleep(0.0, lambda: False)
-    assert wire.idle.beats
-    wire.there.send(b"x")
-    wire.idle.sleep(100.0, lambda: True)
-    assert wire.read == [(b"x", threading.current_thread().name)]
-
-
 def test_a_connection_that_was_closed_is_read_to_its_end_once(wire: Wire) -> None:
     wire.there.send(b"last")
     wire.there.close()
@@ -134,15 +122,6 @@ def test_it_may_be_closed_while_the_scheduler_sleeps_there_and_leaves_no_descrip
     wire.idle.wake()  # which comes too late
     wire.scheduler.run(until_ns=wire.scheduler.now_ns())
     wait_until(lambda: len(os.listdir("/proc/self/fd")) == before, "the descriptors of before")
-
-
-def test_a_scheduler_that_stays_quiet_stops_the_beats(wire: Wire, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(idle_reads, "BEAT_S", 0.001)
-    wire.there.send(b"x")
-    wire.scheduler.run(until=lambda: wire.got(b"x"))
-    wire.scheduler.call_soon_threadsafe(lambda: None)
-    wire.scheduler.run(until=lambda: not wire.idle.beats)
-    assert wire.read == [(b"x", wire.read[0][1])]
 
 
 def test_a_descriptor_that_select_does_not_take(wire: Wire, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -77,38 +77,6 @@ def test_texts_bytes_and_dates_are_kept_as_they_are(io: IoThread) -> None:
         server.close()
 
 
-def test_a_registration_without_arguments_gets_a_fault_that_says_so(io: IoThread) -> None:
-    with Graph() as graph:
-        server = MasterServer(io, master_of(graph), addresses({}), 0)
-        with ServerProxy(f"http://127.0.0.1:{server.port}") as proxy:
-            for method in ("registerPublisher", "registerSubscriber", "registerService"):
-                code, text, _ = getattr(proxy, method)()
-                assert code == -1
-                assert "caller_id" in text
-        server.close()
-
-
-def test_somebody_shuts_it_down(io: IoThread) -> None:
-    reasons: list[str] = []
-    with Graph() as graph:
-        server = MasterServer(io, master_of(graph), addresses({}), 0, on_shutdown=reasons.append)
-        with ServerProxy(f"http://127.0.0.1:{server.port}") as proxy:
-            answer: Any = proxy.shutdown("/test", "enough")
-            assert answer == [1, "shutdown", 0]
-        assert reasons == ["external shutdown request from [/test]: enough"]
-        server.close()
-
-
-def test_each_call_can_be_watched(io: IoThread) -> None:
-    seen: list[tuple[Any, ...]] = []
-    with Graph(rosout=False) as graph:
-        server = MasterServer(io, master_of(graph), addresses({}), 0, on_call=lambda *call: seen.append(call))
-        with ServerProxy(f"http://127.0.0.1:{server.port}") as proxy:
-            proxy.setParam("/test", "/rate", 5)
-        assert seen == [("setParam", ("/test", "/rate", 5), [1, "parameter /rate set", 0])]
-        server.close()
-
-
 @pytest.mark.parametrize("arguments", [(), (5,), ([{"methodName": 5}],), ([None],), (["text"],)])
 def test_several_calls_that_make_no_sense_are_a_fault(io: IoThread, arguments: tuple[Any, ...]) -> None:
     with Graph(rosout=False) as graph:

@@ -196,13 +196,6 @@ def test_time_that_others_live_on_goes_no_faster_than_the_wall(
     graph.run(100_000.0)  # of its own again, it is held back no more
 
 
-def test_a_graph_in_wall_time_tells_no_time(environ: dict[str, str]) -> None:
-    with Graph(simulated=False) as graph:
-        graph.online(environ=environ)
-        assert graph.ask_as("/test").find("getParam", "/use_sim_time") is None
-        assert set(graph.nodes) == {"/rosout"}
-
-
 def test_it_is_online_once(graph: Graph, environ: dict[str, str]) -> None:
     graph.offline()  # harmless
     graph.online(environ=environ)

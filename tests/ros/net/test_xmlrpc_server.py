@@ -181,38 +181,3 @@ def test_head_is_refused_without_a_body(server: XmlRpcServer) -> None:
 
 BOMB = b"""<?xml version="1.0"?><!DOCTYPE b [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;">]>
 <methodCall><methodName>&b;</methodName><params/></methodCall>"""
-
-
-@pytest.mark.parametrize(
-    ("text", "says"),
-    [
-        (b"\x10\x00\x00\x00callerid=/x", b"400"),
-        (b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n", b"405"),
-        (post(b"no xml at all"), b"no XML-RPC"),
-        (post(b"<methodCall><methodName>x</methodName><params><param>"), b"no XML-RPC"),
-        (post(b"<methodResponse><params/></methodResponse>"), b"names no method"),
-        (post(BOMB), b"XML bomb"),
-        (b"POST / HTTP/1.1\r\nHost: h\r\nContent-Length: 5000000000\r\n\r\n", b"too long"),
-        (b"POST / HTTP/1.1\r\nHost: h\r\nX: " + b"x" * 200_000, b""),
-        (b"POST / HTTP/1.1\r\nHost: h\r\nContent-Length: 100\r\n\r\nshort", b"400"),
-    ],
-)
-def test_what_is_no_call_is_refused_and_others_are_served(
-    server: XmlRpcServer, client: XmlRpcClient, text: bytes, says: bytes
-) -> None:
-    assert says in say(server, text)
-    assert client.call(uri_of(server), "getPid")
-
-
-def test_a_thousand_connections_are_forgotten(server: XmlRpcServer, client: XmlRpcClient) -> None:
-    for number in range(1000):
-        with socket.create_connection(("127.0.0.1", server.port), timeout=PATIENCE) as raw:
-            if number % 2:
-                raw.sendall(b"POST / HT")
-    assert client.call(uri_of(server), "getPid")
-    for _ in range(1000):
-        if not server._tasks:
-            break
-        client.call(uri_of(server), "getPid")
-        client.close()
-    assert len(server._tasks) <= 1

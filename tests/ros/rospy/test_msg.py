@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import copy
-import pickle
 from io import BytesIO
 
 import pytest
@@ -25,13 +23,6 @@ def test_an_any_message_carries_the_bytes_of_another():
     assert written(message) == data
     assert String().deserialize(message._buff).data == "hello"
     assert str(message) == "AnyMsg of 9 bytes"
-
-
-def test_it_equals_its_copies_and_nothing_else():
-    message = rospy.AnyMsg().deserialize(b"abc")
-    assert pickle.loads(pickle.dumps(message)) == copy.deepcopy(message) == message
-    assert message != rospy.AnyMsg().deserialize(b"abd")
-    assert message != String("abc")
 
 
 def test_it_takes_no_arguments_and_writes_nothing_that_it_does_not_have():

@@ -2,56 +2,18 @@
 
 from __future__ import annotations
 
-import re
 import sys
 import threading
 
 import pytest
 
 from rosmini import Graph, set_default_graph
-from rosmini.core.errors import IllegalName, TransportException
 from rosmini.core.graph import default_graph
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.ros import rospy
 from rosmini.ros.rospy.aliases import rosgraph
 
 from ...processes import PATIENCE, run
-
-
-def test_a_node_has_a_name_a_namespace_and_a_uri(programs):
-    def main():
-        before = rospy.get_name(), rospy.get_namespace(), rospy.get_node_uri(), rospy.core.is_initialized()
-        rospy.init_node("talker")
-        return before, (rospy.get_name(), rospy.get_caller_id(), rospy.get_namespace())
-
-    before, after = programs(main)
-    assert before == ("/unnamed", "/", None, False)
-    assert after == ("/talker", "/talker", "/")
-    assert default_graph().nodes["/talker"].uri
-
-
-def test_arguments_rename_and_remap(programs):
-    def main():
-        rospy.init_node("talker")
-        return (
-            rospy.get_name(), rospy.get_namespace(), rospy.resolve_name("chatter"), rospy.resolve_name("~x"),
-            rospy.resolve_name(""), rospy.resolve_name("a", "/other/node"), rospy.remap_name("chatter"),
-            rospy.remap_name("unmapped"), rospy.get_param("~rate"), rospy.myargv(["prog", "a:=b", "-v", "_x:=1"]),
-        )  # fmt: skip
-
-    got = programs(main, arguments=("__name:=speaker", "__ns:=robot1", "chatter:=news", "_rate:=10"))
-    assert got == (
-        "/robot1/speaker", "/robot1/", "/robot1/news", "/robot1/speaker/x", "/robot1/", "/other/a", "/robot1/news",
-        "unmapped", 10, ["prog", "-v"],
-    )  # fmt: skip
-
-
-def test_argv_of_init_node_replaces_that_of_the_program(programs):
-    def main():
-        rospy.init_node("talker", argv=["x", "chatter:=/elsewhere"])
-        return rospy.resolve_name("chatter")
-
-    assert programs(main, arguments=("chatter:=/here",)) == "/elsewhere"
 
 
 def test_the_environment_gives_a_namespace(programs, monkeypatch):
@@ -63,43 +25,6 @@ def test_the_environment_gives_a_namespace(programs, monkeypatch):
         return early, rospy.get_name()
 
     assert programs(main) == (("/fleet/", "/fleet/scan"), "/fleet/talker")
-
-
-def test_anonymous_nodes_have_different_names(programs):
-    def main():
-        rospy.init_node("talker", anonymous=True)
-        return rospy.get_name()
-
-    names = {programs(main) for _ in range(3)}
-    assert len(names) == 3
-    assert all(re.fullmatch(r"/talker_\d+_\d+", name) for name in names)
-
-
-@pytest.mark.parametrize("name", ["", None, "a/b", "/talker", "my-node", "1st"])
-def test_an_illegal_name_is_a_value_error(programs, name):
-    with pytest.raises(ValueError) as caught:
-        programs(lambda: rospy.init_node(name))
-    assert isinstance(caught.value, IllegalName)
-    if name == "a/b":
-        assert "namespaces are not allowed in node names" in str(caught.value)
-    if name == "my-node":
-        assert "my-node" in str(caught.value)
-        assert "\n      ^" in str(caught.value)
-
-
-def test_a_second_init_node_must_be_the_same(programs):
-    def main():
-        rospy.init_node("talker", log_level=rospy.DEBUG)
-        rospy.init_node("talker", log_level=rospy.DEBUG)
-        with pytest.raises(
-            rospy.ROSException, match=r"arguments: name='talker', .*, now name='other', .*\. One script is one node"
-        ):
-            rospy.init_node("other")
-        with pytest.raises(rospy.ROSException, match="different arguments"):
-            rospy.init_node("talker")
-        return rospy.get_name()
-
-    assert programs(main) == "/talker"
 
 
 def test_the_main_program_has_a_node_too(graph):
@@ -140,118 +65,7 @@ def test_an_object_api_node_is_the_node_of_its_callbacks(graph):
     assert names == [("/objects", True)]
 
 
-BLOCKING = {
-    "Rate": lambda: rospy.Rate(10),
-    "Timer": lambda: rospy.Timer(rospy.Duration(1), print),
-    "now": rospy.Time.now,
-    "get_time": rospy.get_time,
-    "get_rostime": rospy.get_rostime,
-    "spin": rospy.spin,
-    "wait_for_message": lambda: rospy.wait_for_message("chatter", String),
-}
-
-
-@pytest.mark.parametrize("name", BLOCKING)
-def test_what_needs_a_node_says_so(sim_programs, name):
-    with pytest.raises(rospy.ROSInitException, match=r"rospy\.init_node\("):
-        sim_programs(BLOCKING[name])
-
-
-def test_a_duplicate_name_ends_the_older_node(programs):
-    def old():
-        rospy.init_node("twin")
-        rospy.spin()
-        return rospy.is_shutdown()
-
-    def new():
-        rospy.sleep(0.1)
-        rospy.init_node("twin")
-        rospy.sleep(0.5)
-        return rospy.is_shutdown()
-
-    first = programs.start(old)
-    assert programs(new) is False
-    assert first.result is True
-
-
 # -- the end -----------------------------------------------------------------------------------------------------
-
-
-def test_shutdown_runs_hooks_in_order_while_one_can_still_publish(programs):
-    heard = []
-
-    def listener():
-        rospy.init_node("listener")
-        rospy.Subscriber("stop", String, lambda message: heard.append(message.data))
-        rospy.spin()
-
-    def main():
-        early = []
-        rospy.on_shutdown(lambda: early.append("before init_node"))
-        rospy.init_node("main")
-        publisher = rospy.Publisher("stop", String, queue_size=1)
-        rospy.sleep(0.3)
-        states = []
-        rospy.on_shutdown(lambda: (early.append("first"), publisher.publish("stop")))
-        rospy.on_shutdown(lambda: states.append((rospy.core.is_shutdown_requested(), rospy.is_shutdown())))
-        rospy.core.add_preshutdown_hook(lambda reason: early.append(f"pre: {reason}"))
-        rospy.core.add_shutdown_hook(lambda reason: early.append(f"last: {reason}"))
-        assert not rospy.core.is_shutdown_requested()
-        rospy.signal_shutdown("done")
-        rospy.signal_shutdown("again")
-        assert rospy.is_shutdown()
-        rospy.on_shutdown(lambda: early.append("at once"))
-        return early, states
-
-    early, states = programs(listener, main)
-    assert early == ["before init_node", "first", "pre: done", "last: done", "at once"]
-    assert states == [(True, False)]
-    programs.graph.run(0.1)
-    assert heard == ["stop"]
-
-
-def test_a_hook_that_raises_does_not_stop_the_others(programs, log):
-    done = []
-
-    def bad():
-        raise ValueError("bad hook")
-
-    def main():
-        rospy.init_node("main")
-        rospy.on_shutdown(bad)
-        rospy.on_shutdown(lambda: done.append(1))
-        rospy.signal_shutdown("")
-
-    programs(main)
-    assert done == [1]
-    assert "bad hook" in log.read().err
-
-
-def test_a_hook_must_be_callable(programs):
-    with pytest.raises(TypeError, match="function or another callable"):
-        programs(lambda: rospy.on_shutdown("no"))
-
-
-@pytest.mark.parametrize("what", ["sleep", "rate", "wait_for_message", "wait_for_service", "spin"])
-def test_shutdown_ends_what_blocks(programs, what):
-    def main():
-        rospy.init_node("main")
-        rospy.Timer(rospy.Duration(0.2), lambda _: rospy.signal_shutdown("enough"), oneshot=True)
-        blocking = {
-            "sleep": lambda: rospy.sleep(100),
-            "rate": lambda: rospy.Rate(0.01).sleep(),
-            "wait_for_message": lambda: rospy.wait_for_message("nothing", String),
-            "wait_for_service": lambda: rospy.wait_for_service("nothing"),
-            "spin": rospy.spin,
-        }
-        if what == "spin":
-            blocking[what]()
-        else:
-            with pytest.raises(rospy.ROSInterruptException, match="enough"):
-                blocking[what]()
-        return rospy.is_shutdown()
-
-    assert programs(main)
 
 
 def test_signal_shutdown_before_init_node(programs):
@@ -263,21 +77,6 @@ def test_signal_shutdown_before_init_node(programs):
             rospy.init_node("late")
 
     programs(main)
-
-
-def test_the_runner_is_told_of_the_node_and_of_its_end(programs):
-    def main():
-        rospy.init_node("main")
-        rospy.spin()
-
-    program = programs.start(main)
-    programs.graph.run(0.1)
-    assert (program.node.name, program.node_name) == ("/main", "/main")
-    for end in program.at_shutdown:
-        end("the run is over")
-    programs.graph.run(0.1)
-    assert program.done
-    assert program.node.shutdown_reason == "the run is over"
 
 
 PROGRAM = """
@@ -382,14 +181,6 @@ def test_what_rospy_has_not_is_named(name, words):
     assert not hasattr(rospy, "__nothing__")
 
 
-def test_a_scoped_name():
-    from rosmini.ros.rospy.names import scoped_name
-
-    assert scoped_name("/foo/node", "/foo/bar/name") == "bar/name"
-    with pytest.raises(rospy.ROSException, match="must be global"):
-        scoped_name("foo", "/foo")
-
-
 # -- more than one graph -----------------------------------------------------------------------------------------
 
 
@@ -434,13 +225,3 @@ def test_a_program_calls_the_slave_api_of_another_node(programs):
         return rospy.core.xmlrpcapi(uri).getPid("/asker")[0], before, told[0], heard
 
     assert programs(main) == (1, [], 1, ["extra"])
-
-
-def test_an_address_of_nobody_does_not_answer(programs):
-    def main():
-        rospy.init_node("asker")
-        with pytest.raises(TransportException):
-            rospy.core.xmlrpcapi("http://nobody:1/").getPid("/asker")
-        return rospy.core.xmlrpcapi(None), rospy.core.xmlrpcapi("rosrpc://nobody:1")
-
-    assert programs(main) == (None, None)

@@ -9,20 +9,6 @@ from rosmini.msgs.rosgraph_msgs.msg import Clock
 from rosmini.ros import rospy
 
 
-def test_types_of_results_are_those_of_rospy():
-    t, d = rospy.Time(5), rospy.Duration(1)
-    assert [type(x) for x in (t - t, t - d, t + d, d + d, d - d, -d, d * 2, d / 2)] == [
-        time.Duration,
-        rospy.Time,
-        rospy.Time,
-        *[rospy.Duration] * 5,
-    ]
-    assert (repr(t), repr(d)) == ("rospy.Time[5000000000]", "rospy.Duration[1000000000]")
-    assert rospy.Time(5) == time.Time(5)
-    assert rospy.Time.from_seconds(1.5) == rospy.Time.from_sec(1.5) == rospy.Time(1, 500_000_000)
-    assert type(rospy.Time.from_sec(1)) is rospy.Time
-
-
 def test_the_clock_of_the_node(programs):
     def main():
         rospy.init_node("main")
@@ -83,41 +69,6 @@ def test_a_loop_that_polls_is_shutdown_lets_others_run(programs):
         return True
 
     assert programs(main)
-
-
-def test_timers(sim_programs):
-    def main():
-        rospy.init_node("main")
-        events = []
-
-        def tick(event):
-            events.append(event)
-            rospy.sleep(0.1)
-
-        timer = rospy.Timer(rospy.Duration(0.5), tick)
-        rospy.sleep(1.2)
-        assert timer.is_alive()
-        timer.shutdown()
-        timer.join()
-        assert not timer.is_alive()
-        rospy.sleep(2)
-        once = []
-        rospy.Timer(rospy.Duration(0.5), once.append, oneshot=True)
-        rospy.sleep(2)
-        return events, once
-
-    events, once = sim_programs(main, limit=10.0)
-    assert len(events) == 2
-    assert len(once) == 1
-    first, second = events
-    assert (first.last_expected, first.last_real, first.last_duration) == (None, None, None)
-    assert (first.current_expected, first.current_real) == (
-        rospy.Time(1000, 500_000_000),
-        rospy.Time(1000, 500_000_000),
-    )
-    assert (second.last_expected, second.last_real) == (first.current_expected, first.current_real)
-    assert second.last_duration == pytest.approx(0.1)
-    assert {type(first.current_real), type(second.last_real), type(second.current_expected)} == {rospy.Time}
 
 
 def test_sim_time_comes_from_the_clock_topic(programs, log):

@@ -46,9 +46,16 @@ class Ran:
         return self.result.status
 
 
-@pytest.fixture(params=["simulated", "wall"])
-def simulated(request: pytest.FixtureRequest) -> bool:
-    return request.param == "simulated"
+IN_BOTH_CLOCKS = {"test_run", "test_handle", "test_rospy_scripts", "test_stdin"}
+"""The modules whose tests run in both clocks with each commit; at night all do."""
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """Choose the clocks in which a test runs."""
+    if "simulated" in metafunc.fixturenames:
+        each_commit = metafunc.module.__name__.rpartition(".")[2] in IN_BOTH_CLOCKS
+        wall = pytest.param(False, id="wall", marks=[] if each_commit else pytest.mark.nightly)
+        metafunc.parametrize("simulated", [pytest.param(True, id="simulated"), wall])
 
 
 def state() -> dict[str, Any]:

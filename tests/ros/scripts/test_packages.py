@@ -78,18 +78,6 @@ def test_a_module_on_pythonpath_may_import_rospy_and_messages(workspace, capsys,
     assert "on_path" not in sys.modules
 
 
-def test_the_environment_is_given_back(workspace, capsys, monkeypatch):
-    import os
-
-    said(capsys, workspace / "my_pkg" / "scripts" / "x.py")
-    assert "ROS_PACKAGE_PATH" not in os.environ
-    monkeypatch.setenv("ROS_PACKAGE_PATH", str(workspace))
-    (workspace / "my_pkg" / "scripts" / "z.py").write_text(
-        "import os\nprint(os.environ['ROS_PACKAGE_PATH'])\n", encoding="utf-8"
-    )
-    assert said(capsys, workspace / "my_pkg" / "scripts" / "z.py") == [str(workspace)]
-
-
 @pytest.mark.parametrize("module", ["", "other/src/other/cfg/__init__.py"], ids=["no module", "a module without it"])
 def test_parameters_that_are_not_built_yet(workspace, capsys, module):
     files = {"other/cfg/Speed.cfg": "PACKAGE = 'other'", "other/x.py": "from other.cfg import SpeedConfig"}

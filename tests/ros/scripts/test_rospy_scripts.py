@@ -1,5 +1,6 @@
 """Scripts as students write them for rospy, unmodified, several at once, in simulated and in wall time."""
 
+import random
 import re
 import textwrap
 from pathlib import Path
@@ -32,13 +33,6 @@ def said_by(ran, name):
     return [line.removeprefix(f"[{name}] ") for line in ran.lines if line.startswith(f"[{name}] ")]
 
 
-def test_talker_and_listener(start):
-    ran = start("talker.py", "listener.py")
-    assert said_by(ran, "listener") == ["heard hello 0", "heard hello 1", "heard hello 2", "done"]
-    assert ran.result.reason == "ended"
-    assert ran.status == 0
-
-
 def test_remapping_and_private_parameters(start):
     ran = start(
         spec("talker.py", "chatter:=/news", "__name:=reporter", "_rate:=200"),
@@ -50,21 +44,6 @@ def test_remapping_and_private_parameters(start):
     assert said_by(ran, "deaf") == ["done"]
     assert ran.result.reason == "interrupted"
     assert ran.status == 0
-
-
-def test_straight_line_without_a_sleep(start):
-    ran = start("straight_line.py", "motor.py")
-    assert any("arrived True" in line for line in ran.lines)
-    assert said_by(ran, "motor") == ["stopped"]
-    assert ran.status == 0
-
-
-def test_spinning_until_something_came(start):
-    ran = start("wait_for_got.py", "talker.py")
-    (line,) = said_by(ran, "waiter")
-    # On a busy machine more than one has come before its next turn.
-    assert re.fullmatch(r"got hello [012]", line)
-    assert ran.result.reason == "ended"
 
 
 def test_message_filters_bring_two_topics_together(start):
@@ -90,22 +69,6 @@ def test_add_two_ints(start):
     assert ran.status == 0
 
 
-def test_add_two_ints_without_arguments(start):
-    ran = start("add_two_ints_client.py")
-    assert said_by(ran, "add_two_ints_client") == ["add_two_ints_client.py [x y]"]
-    assert ran.status == 1
-
-
-def test_a_service_from_a_callback(start):
-    ran = start("service_in_callback.py")
-    assert said_by(ran, "relay") == ["a True 1", "b True 2"]
-    assert ran.status == 0
-
-
-def test_a_node_that_calls_itself(start):
-    assert said_by(start("calls_itself.py"), "self_caller") == ["outer got inner"]
-
-
 def test_input_and_arguments(start):
     ran = start(
         spec("ask.py", "--unit", "cm", "word", "goal:=/target"),
@@ -115,12 +78,6 @@ def test_input_and_arguments(start):
     )
     assert any(line.endswith("3.5 cm ['word'] /asker /target") for line in ran.lines)
     assert said_by(ran, "listener")[-1] == "done"
-    assert ran.result.reason == "ended"
-
-
-def test_spin_in_a_thread(start):
-    ran = start("spin_thread.py", "talker.py")
-    assert said_by(ran, "spinner") == ["['hello 0', 'hello 1', 'hello 2']", "spin has returned"]
     assert ran.result.reason == "ended"
 
 
@@ -168,12 +125,6 @@ def _typed_as_the_robot_moves(start):
         os.close(write)
 
 
-def test_shutdown_hook_at_the_end_of_the_duration(start):
-    ran = start("shutdown_hook.py", duration=0.02)
-    assert said_by(ran, "hooked")[-1] == "stopping the robot"
-    assert ran.status == 0
-
-
 def test_shutdown_hook_at_ctrl_c(start, run):
     import signal
 
@@ -197,28 +148,6 @@ def test_sys_exit_runs_the_hooks(start):
     assert text[1:] == ["hook"]
     assert ran.result.statuses == (3, 0)
     assert said_by(ran, "self_caller") == ["outer got inner"]
-
-
-def test_modules_and_seeds_of_their_own(start):
-    import random
-
-    ran = start("left/left.py", "right/right.py")
-    for side, seed in (("left", 1), ("right", 2)):
-        own = random.Random(seed)
-        assert said_by(ran, f"node_{side}") == [f"{side} {[own.randint(0, 999) for _ in range(3)]}"]
-
-
-def test_writing_into_received_messages(start):
-    ran = start("laser.py", spec("vandal.py", "one"), spec("vandal.py", "two"))
-    for name in ("one", "two"):
-        assert said_by(ran, name) == ["[1.0, 2.0, 3.5] base_scan"]
-    assert said_by(ran, "laser") == ["[7.0, 2.0, 3.5] base_scan 0.0"]
-
-
-def test_never_calling_rospy_again(start):
-    ran = start("never_again.py", "talker.py")
-    assert said_by(ran, "busy") == ["three messages came in between"]
-    assert ran.result.reason == "ended"
 
 
 def test_threads_log_under_their_own_name(start, run):
@@ -255,7 +184,7 @@ def test_a_wrong_message_shows_the_users_line_only(start, run):
 
 
 def test_all_at_once(start):
-    """Every script that ends by itself, in one process and one graph."""
+    """Every script that ends by itself, in one process and one graph: each does what it does alone."""
     ran = start(
         spec("talker.py", "_listeners:=4"),
         "listener.py",
@@ -274,16 +203,21 @@ def test_all_at_once(start):
     )
     assert ran.result.reason == "ended"
     assert ran.status == 0
-    assert said_by(ran, "motor") == ["stopped"]
-
-
-def test_the_same_output_on_each_run(sim):
-    specs = [
-        spec(name)
-        for name in (
-            "talker.py", "listener.py", "spin_thread.py", "left/left.py", "straight_line.py", "motor.py",
-        )
-    ]  # fmt: skip
-    first = sim(*specs, duration=2).text
-    assert first
-    assert sim(*specs, duration=2).text == first
+    # On a busy machine more than one has come before its next turn.
+    assert re.fullmatch(r"got hello [012]", *said_by(ran, "waiter"))
+    assert any("arrived True" in line for line in ran.lines)
+    said = {
+        "listener": ["heard hello 0", "heard hello 1", "heard hello 2", "done"],
+        "busy": ["three messages came in between"],
+        "spinner": ["['hello 0', 'hello 1', 'hello 2']", "spin has returned"],
+        "motor": ["stopped"],
+        "self_caller": ["outer got inner"],
+        "relay": ["a True 1", "b True 2"],
+        "one": ["[1.0, 2.0, 3.5] base_scan"],
+        "two": ["[1.0, 2.0, 3.5] base_scan"],
+        "laser": ["[7.0, 2.0, 3.5] base_scan 0.0"],
+    }
+    for side, seed in (("left", 1), ("right", 2)):
+        own = random.Random(seed)
+        said[f"node_{side}"] = [f"{side} {[own.randint(0, 999) for _ in range(3)]}"]
+    assert {name: said_by(ran, name) for name in said} == said

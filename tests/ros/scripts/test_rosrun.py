@@ -8,7 +8,7 @@ from rosmini import Graph, rosrun, set_default_graph
 from rosmini.core.errors import RosminiError, ScriptError, UnknownPackage
 from rosmini.core.graph import Node
 from rosmini.msgs.std_msgs.msg import Int32
-from rosmini.ros.scripts import NodeSpec, ScriptSpec, find, run_scripts
+from rosmini.ros.scripts import find
 from rosmini.tools.main import main
 
 NODES = """
@@ -170,17 +170,6 @@ def test_a_script_of_a_package_goes_on_with_the_graph(graph):
 
 
 @pytest.mark.usefixtures("workspace")
-def test_a_script_can_start_a_node():
-    source = (
-        "import rosmini\nc = rosmini.rosrun('counting', 'counter', '_start:=4').instance()\nprint(c.value)\n" + SCRIPT
-    )
-    out = io.StringIO()
-    result = run_scripts([ScriptSpec("both", source=source)], stdout=out)
-    assert result.status == 0
-    assert out.getvalue().splitlines() == ["[both] 4", *(f"[listener] got {n}" for n in (5, 6, 7))]
-
-
-@pytest.mark.usefixtures("workspace")
 def test_what_a_built_in_node_says_goes_where_its_starter_wants_it(graph, capfd):
     handle = rosrun("counting", "chatty", graph=graph, capture_output=True, prefix=False)
     given, warned = io.StringIO(), io.StringIO()
@@ -200,14 +189,6 @@ def test_built_in_nodes_run_beside_scripts_and_end_with_them(capsys, monkeypatch
     words = ["counting/counter", "_start:=7", "+", "counting/listener.py"]
     assert main(["run", "--sim-time", *words]) == 0
     assert capsys.readouterr().out.splitlines() == [f"[listener] got {n}" for n in (8, 9, 10)]
-
-
-@pytest.mark.usefixtures("workspace")
-def test_only_built_in_nodes_run_for_the_duration(capsys, monkeypatch):
-    monkeypatch.setattr("sys.stdin", None)
-    out = io.StringIO()
-    result = run_scripts([NodeSpec(find("counting/counter"))], duration=5, stdout=out)
-    assert (result.reason, result.statuses, out.getvalue()) == ("time", (0,), "")
 
 
 @pytest.mark.usefixtures("workspace")

@@ -18,7 +18,7 @@ from ...conftest import nightly
 
 def test_lines_have_the_name_before_them_and_are_in_order(run):
     ran = run(
-        run.text("a", "import time\nfor i in range(2):\n    print('x', i)\n    time.sleep(0.02)\n"),
+        run.text("a", "import time\nfor i in range(2):\n    print('x', i)\n    time.sleep(0.2)\n"),
         run.text("b", "import time, sys\ntime.sleep(0.001)\nsys.stderr.write('one\\ntwo\\n')\n"),
     )
     assert ran.lines == ["[a] x 0", "[b] one", "[b] two", "[a] x 1"]
@@ -39,10 +39,6 @@ def test_a_flushed_line_goes_on(sim):
         "[script] ab",
         "[script] raw",
     ]
-
-
-def test_without_prefix(run):
-    assert run("print('hello')", prefix=False).text == "hello\n"
 
 
 def test_arguments_and_main(run, tmp_path):
@@ -118,10 +114,6 @@ def test_traceback_has_the_users_frames_only(run, tmp_path):
         "KeyError: 2",
     ]
     assert ran.status == 1
-
-
-def test_traceback_of_a_text_shows_its_lines(sim):
-    assert "raise ValueError('x')" in sim("y = 1\nraise ValueError('x')\n").text
 
 
 def test_a_cause_is_shown(sim):
@@ -228,10 +220,6 @@ def test_duration_ends_what_never_ends(run):
     assert ran.result.reason == "time"
     assert ran.status == 0
     assert sorted(ran.lines) == ["[poll] bye", "[sleep] bye"]
-
-
-def test_simulated_time_waits_for_no_wall(sim):
-    assert sim("import time\nt = time.time()\ntime.sleep(3600)\nprint(time.time() - t)").lines == ["[script] 3600.0"]
 
 
 def test_nothing_left_to_happen(sim):

@@ -182,46 +182,6 @@ def test_locks(run):
     assert lines(ran) == ["60 False", "False False", "True", "other False", "free True"]
 
 
-def test_condition_as_a_keyboard_publisher_uses_it(run):
-    ran = run(
-        """
-        import threading
-        class PublishThread(threading.Thread):
-            def __init__(self):
-                super().__init__()
-                self.condition = threading.Condition()
-                self.x, self.done, self.sent = 0, False, []
-                self.timeout = 0.005
-                self.start()
-            def update(self, x):
-                self.condition.acquire()
-                self.x = x
-                self.condition.notify()
-                self.condition.release()
-            def stop(self):
-                self.done = True
-                self.update(0)
-                self.join()
-            def run(self):
-                while not self.done:
-                    self.condition.acquire()
-                    self.condition.wait(self.timeout)
-                    self.sent.append(self.x)
-                    self.condition.release()
-        import time
-        p = PublishThread()
-        time.sleep(0.001)
-        for x in (1, 2, 3):
-            p.update(x)
-            while x not in p.sent:
-                time.sleep(0.001)
-        p.stop()
-        print(sorted(set(p.sent)), p.sent[-1])
-        """
-    )
-    assert lines(ran) == ["[0, 1, 2, 3] 0"]
-
-
 def test_condition_wait_for_and_notify_all(run):
     ran = run(
         """
@@ -329,32 +289,3 @@ def test_thread_pool(run):
         """
     )
     assert lines(ran) == ["[9, 1, 4]", "[1, 4, 9]", "ZeroDivisionError", "1"]
-
-
-def test_threads_print_as_their_script(run):
-    source = """
-    import threading, time, sys
-    def work():
-        time.sleep(0.001)
-        print("from", sys.argv[1])
-        sys.stdout.write("raw %s\\n" % sys.argv[1])
-        import logging
-        logging.error("logged")
-    t = threading.Thread(target=work); t.start(); t.join()
-    """
-    ran = run(run.text("a", source, "a"), run.text("b", source, "b"))
-    for name in "ab":
-        own = [line for line in ran.lines if line.startswith(f"[{name}]")]
-        assert own == [f"[{name}] from {name}", f"[{name}] raw {name}", f"[{name}] ERROR:root:logged"]
-
-
-def test_simulated_threads_are_the_same_each_time(sim):
-    source = """
-    import threading, time
-    def work(n):
-        for i in range(3):
-            time.sleep(0.1 * (n + 1))
-            print(n, i, round(time.monotonic(), 3), threading.get_ident())
-    [threading.Thread(target=work, args=(n,)).start() for n in range(3)]
-    """
-    assert sim(source).text == sim(source).text

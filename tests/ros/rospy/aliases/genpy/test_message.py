@@ -11,15 +11,9 @@ import pytest
 from rosmini.core.errors import MessageException, SerializationError
 from rosmini.core.graph import Graph
 from rosmini.msgs.geometry_msgs.msg import PoseWithCovariance
-from rosmini.msgs.std_msgs.msg import Header, Time
+from rosmini.msgs.std_msgs.msg import Header
 from rosmini.ros.rospy.aliases import genpy
 from rosmini.ros.rospy.aliases.genpy.message import check_type, fill_message_args
-
-
-def test_a_whole_number_is_nanoseconds():
-    message = Time()
-    fill_message_args(message, [1_500_000_007])
-    assert message.data == genpy.Time(1, 500_000_007)
 
 
 @pytest.mark.parametrize(

@@ -33,17 +33,6 @@ class Terminal(io.StringIO):
         return True
 
 
-def test_levels_go_to_their_streams_with_the_graphs_time(monkeypatch):
-    monkeypatch.delenv("ROSCONSOLE_FORMAT", raising=False)
-    out, err = io.StringIO(), io.StringIO()
-    handler = roslogging.RosStreamHandler(stdout=out, stderr=err)
-    handler.emit(record(logging.INFO, "hello"))
-    handler.emit(record(logging.WARNING, "look out"))
-    handler.emit(record(logging.CRITICAL, "the end"))
-    assert out.getvalue() == "[INFO] [1000.000000]: hello\n"
-    assert err.getvalue() == "[WARN] [1000.000000]: look out\n[FATAL] [1000.000000]: the end\n"
-
-
 def test_a_form_of_ones_own_and_colours(monkeypatch):
     monkeypatch.setenv("ROSCONSOLE_FORMAT", "${time:%H:%M:%S} ${node} ${file}:${line} ${function} ${message} ${what}")
     err = Terminal()
