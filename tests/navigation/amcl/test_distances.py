@@ -55,12 +55,6 @@ def test_a_beam_ends_where_nothing_is_known_too():
     ] == pytest.approx(0.75, abs=5e-5)
 
 
-@pytest.mark.parametrize("turn", [0.0, math.pi / 2, math.pi, -math.pi / 2, math.pi / 4])
-def test_beams_along_the_borders_of_cells_end(turn):
-    found = room().ranges(np.array([[0.0, 0.0, turn]]), np.zeros(1), 10.0)[0, 0]
-    assert found == pytest.approx(0.95 * (math.sqrt(2) if turn == math.pi / 4 else 1.0), abs=5e-5)
-
-
 @given(masks(), st.integers(0, 2**32 - 1), st.sampled_from([3.0, 15.0]))
 def test_beams_end_at_the_first_blocked_cell(blocked, seed, limit):
     """As looking every hundredth of a cell finds it; but a corner may be cut by a hair, or not."""

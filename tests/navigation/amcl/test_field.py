@@ -28,14 +28,6 @@ def test_a_density_is_that_of_the_formula():
     assert outside == pytest.approx((0.9 * math.exp(-(2.0**2) / 0.02) + 0.1 / 3.5) ** 3, rel=1e-4)
 
 
-def test_densities_of_another_laser_replace_the_table():
-    field = room()
-    one, _ = field.densities(BeamMixture(), 3.5, "cube")
-    other, _ = field.densities(BeamMixture(), 7.0, "cube")
-    assert not np.allclose(one, other)
-    assert field.densities(BeamMixture(), 7.0, "cube")[0] is other
-
-
 @given(st.integers(0, 2**32 - 1))
 def test_sums_are_the_sums_of_each(seed):
     rng = np.random.default_rng(seed)

@@ -9,7 +9,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.core.errors import RosminiError
 from rosmini.navigation.amcl.filter import ParticleFilter, cell_numbers, cells, cluster_labels, cluster_of
 
 
@@ -118,14 +117,6 @@ def test_particles_at_random_come_when_the_likelihood_falls():
     assert particles.random_share == 0.0, "and it begins anew"
 
 
-def test_the_average_likelihood_does_not_depend_on_the_number_of_particles():
-    for count in (10, 1000):
-        particles = a_filter(1, count, slow=0.5, fast=0.5)
-        particles.initialize((0.0, 0.0, 0.0), np.eye(3))
-        particles.update_weights(np.full(count, math.log(0.3)))
-        assert particles.average_slow == pytest.approx(0.3)
-
-
 def test_clusters_and_the_best_of_them():
     particles = a_filter(1, 300)
     particles.particles = np.concatenate([np.full((100, 3), 0.1), np.tile((5.0, 5.0, 2.0), (200, 1))])
@@ -163,19 +154,3 @@ def test_the_mean_of_headings_is_circular():
     assert abs(found.mean[2]) == pytest.approx(math.pi)
     assert found.mean[0] == 1.0
     assert found.covariance[0, 0] == 1.0
-
-
-def test_numbers_of_particles_that_are_none():
-    with pytest.raises(RosminiError, match=r"min_particles \(20\)"):
-        a_filter(20, 10)
-
-
-def test_the_same_seed_gives_the_same_particles():
-    def run():
-        particles = a_filter(10, 500)
-        particles.initialize((0.0, 0.0, 0.0), np.eye(3))
-        particles.update_weights(-(particles.particles[:, 0] ** 2))
-        particles.resample(nowhere)
-        return particles.particles
-
-    assert (run() == run()).all()

@@ -7,7 +7,6 @@ import math
 import numpy as np
 import pytest
 
-from rosmini.core.errors import RosminiError
 from rosmini.navigation.amcl.field import BeamMixture, LikelihoodField
 from rosmini.navigation.amcl.laser import BeamSkip, LaserModel, Scan
 
@@ -55,14 +54,6 @@ def test_beams_that_hit_nothing_do_not_count(field, kind, bad):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_ranges_of_zero_and_below_are_numbers(field, kind):
-    particles = np.array([(1.0, 1.0, 0.0), (2.0, 2.0, 1.0)])
-    ranges = np.zeros(60)
-    ranges[::3] = -math.inf
-    assert np.isfinite(LaserModel(kind).log_likelihoods(field, particles, Scan(ranges, BEARINGS, 5.0))).all()
-
-
-@pytest.mark.parametrize("kind", KINDS)
 def test_a_laser_that_is_upside_down_sees_its_beams_the_other_way_round(field, kind):
     truth = np.array([(1.0, 1.2, 0.4)])
     upright = scan_from(field, tuple(truth[0]))
@@ -107,14 +98,3 @@ def test_beams_that_most_particles_cannot_explain_are_skipped_once_converged(fie
     assert strict.log_likelihoods(field, lost, seen, converged=True) == pytest.approx(
         plain.log_likelihoods(field, lost, seen)
     ), "if nearly all beams would go, none does"
-
-
-@pytest.mark.parametrize(("count", "beams", "expected"), [(360, 60, 60), (360, 180, 180), (7, 30, 7), (360, 1, 2)])
-def test_about_as_many_beams_as_asked_for(count, beams, expected):
-    chosen = LaserModel(max_beams=beams).used_beams(count)
-    assert expected <= len(range(count)[chosen]) <= 2 * expected
-
-
-def test_a_model_that_is_none(field):
-    with pytest.raises(RosminiError, match="unknown laser model 'likelihood'"):
-        LaserModel("likelihood").log_likelihoods(field, np.zeros((1, 3)), scan_from(field, (1.0, 1.0, 0.0)))

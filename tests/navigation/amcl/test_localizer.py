@@ -8,9 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rosmini.core.errors import RosminiError
 from rosmini.core.geometry.poses import compose
-from rosmini.core.maps.grid_map import GridMap
 from rosmini.navigation.amcl.laser import Scan
 from rosmini.navigation.amcl.localizer import FreeSpace, Localizer
 from rosmini.navigation.amcl.parameters import AmclParameters
@@ -93,29 +91,6 @@ def test_a_robot_that_is_anywhere_is_found():
         pose, odometry = compose(pose, motion), compose(odometry, motion)
     found.update("scan", seen(found, pose), odometry)
     assert math.dist(found.estimate().pose[:2], pose[:2]) < 0.15
-
-
-def test_new_parameters_keep_what_it_believes():
-    found = localizer()
-    found.initialize((2.0, 1.0, 0.5), SMALL)
-    found.configure(replace(found.parameters, max_particles=300, min_particles=400))
-    assert len(found.filter.particles) == 300
-    assert found.filter.mean().mean == pytest.approx((2.0, 1.0, 0.5), abs=0.05)
-
-
-def test_without_a_map():
-    found = Localizer(AmclParameters(), np.random.default_rng(0))
-    assert found.update("scan", Scan(np.ones(2), np.zeros(2), 3.5), (0.0, 0.0, 0.0)) is None
-    with pytest.raises(RosminiError, match="there is no map yet"):
-        found.initialize_globally()
-
-
-def test_a_map_without_a_free_cell_leaves_the_one_before():
-    found = localizer()
-    before = found.field
-    with pytest.raises(RosminiError, match="no free cell"):
-        found.set_map(GridMap(np.full((5, 5), -1, dtype=np.int8), 0.05, (0.0, 0.0, 0.0)))
-    assert found.field is before
 
 
 def test_poses_are_drawn_evenly_from_free_cells():

@@ -9,7 +9,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.core.errors import RosminiError
 from rosmini.navigation.amcl.motion import MODELS, sample_motion_model
 
 COUNT = 100_000
@@ -74,8 +73,3 @@ def test_without_errors_particles_do_as_the_odometry(start, before, after, model
     )
     assert found[:2] == pytest.approx(expected, abs=1e-9)
     assert math.remainder(found[2] - start[2] - turn, math.tau) == pytest.approx(0.0, abs=1e-9)
-
-
-def test_a_model_that_is_none():
-    with pytest.raises(RosminiError, match=r"unknown odometry model 'dif'.*diff, omni, diff-corrected"):
-        sample_motion_model(np.zeros((1, 3)), (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), ALPHAS, np.zeros((1, 3)), "dif")

@@ -171,13 +171,6 @@ def test_a_robot_that_stands_is_not_updated_but_its_transform_is(graph):
     assert len(robot.clouds) == clouds + 1
 
 
-def test_without_tf_broadcast_there_is_only_a_pose(graph):
-    robot, _ = ready(graph, "_tf_broadcast:=false")
-    robot.drive(3)
-    assert robot.poses
-    assert "map" not in robot.buffer.tree
-
-
 def test_an_initial_pose_with_its_covariance(graph):
     robot, amcl = ready(graph)
     robot.say(4.0, 3.0, 1.0, variance=0.04)
@@ -250,21 +243,6 @@ def test_a_map_whose_origin_is_turned(graph):
     assert robot.heard("the map's origin is rotated by 28.6 degrees")
 
 
-def test_an_update_after_an_initial_pose_can_be_forced(graph):
-    robot, amcl = ready(graph, "_force_update_after_initialpose:=true")
-    robot.drive(2)
-    robot.say(*robot.pose)
-    assert amcl.localizer.force
-
-
-def test_global_localization(graph):
-    robot, amcl = ready(graph)
-    robot.drive(2)
-    call(graph, "/global_localization", "std_srvs/Empty")
-    assert np.std(amcl.localizer.filter.particles[:, 0]) > 1.0
-    assert len(amcl.localizer.filter.particles) == 800
-
-
 def test_the_map_by_service(graph):
     robot = Robot(graph)
     amcl = rosrun("amcl", "amcl", graph=graph).instance()
@@ -297,13 +275,6 @@ def test_maps_that_change_while_it_runs(graph):
     graph.run(0.1)
     assert robot.heard("no free cell")
     assert amcl.localizer.field.resolution == pytest.approx(0.1)
-
-
-def test_only_the_first_map(graph):
-    robot, amcl = ready(graph, "_first_map_only:=true")
-    robot.maps.publish(hall(resolution=0.1).to_message("map", robot.node.now()))
-    graph.run(0.1)
-    assert amcl.localizer.field.resolution == pytest.approx(0.05)
 
 
 def test_set_map(graph):
@@ -350,21 +321,6 @@ def test_parameters_that_are_restored(graph):
     assert (amcl.parameters.odom_alpha1, amcl.localizer.filter.most) == (0.3, 700)
 
 
-def test_a_start_outside_the_map(graph):
-    robot, _ = ready(graph, "_initial_pose_x:=-4.0")
-    assert robot.heard("is not in the free space of the map")
-
-
-def test_another_base_frame_asks_anew_where_the_laser_is(graph):
-    robot, amcl = ready(graph)
-    robot.drive(2)
-    StaticTransformBroadcaster(graph.node("more")).send("base_link", "front", (0.3, 0.0, 0.0))
-    robot.tell()
-    Client(robot.node, "amcl").update_configuration({"base_frame_id": "front"})
-    robot.drive(2)
-    assert amcl._lasers["laser"][0][0] == pytest.approx(-0.3)
-
-
 @pytest.mark.parametrize(
     "given", ["_max_particles:=many", "_odom_alpha1:=.nan", "_initial_pose_a:=.nan", "_initial_pose_x:=.inf"]
 )
@@ -384,29 +340,6 @@ def test_parameters_of_other_kinds_and_out_of_range_are_taken_as_amcl_takes_them
     assert 'Unknown laser model type "sonar"; defaulting to likelihood_field model' in said
     assert 'Unknown odom model type "car"; defaulting to diff model' in said
     assert amcl.node.get_param("~odom_alpha1") == 0.0
-
-
-def test_parameters_that_are_none_of_its_own(graph, capsys):
-    Robot(graph)
-    amcl = start(graph, "_odom_alpha_1:=0.1")
-    said = capsys.readouterr().err
-    assert "did you mean ~odom_alpha1" in said
-    assert amcl.parameters.odom_alpha1 == 0.2
-
-
-def test_a_laser_that_is_upside_down(graph):
-    robot = Robot(graph)
-    StaticTransformBroadcaster(graph.node("mount")).send_rigid(
-        "base_link", "below", (0.0, 0.0, 0.1, 1.0, 0.0, 0.0, 0.0)
-    )
-    robot.maps.publish(hall().to_message("map", robot.node.now()))
-    start(graph)
-    bearings = -np.arange(BEAMS) * math.tau / BEAMS
-    for _ in range(8):
-        ahead = compose(robot.pose, (0.25, 0.0, 0.05))
-        ranges = robot.field.ranges(np.array([ahead]), bearings, 3.5)[0]
-        robot.step((0.25, 0.0, 0.05), ranges=ranges, frame="below")
-    assert robot.off() < 0.12
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, 0.0, 3.5])
@@ -490,6 +423,7 @@ def test_diagnostics(graph):
     assert 0 < values["std_x"] < 0.2
 
 
+@pytest.mark.nightly  # chapters do it at each commit
 def test_a_goal_is_reached_with_amcl():
     """The launch file of the simulator with `localization:=amcl`: no truth helps the robot any more."""
     with Graph(seed=3) as graph:

@@ -113,11 +113,6 @@ def test_parameters_are_changed_while_it_runs(made):
     assert bench.planner.parameters.max_vel_x == 0.18
 
 
-def test_a_name_that_nobody_knows_is_warned_of_as_files_for_several_releases_have_some(made, capsys):
-    made({"min_vel_xx": 0.1})
-    assert "did you mean ~TrajectoryPlannerROS/min_vel_x" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize(
     ("parameters", "message"),
     [

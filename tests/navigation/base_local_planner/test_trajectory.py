@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rosmini.navigation.base_local_planner.trajectory import Samples, concatenated
+from rosmini.navigation.base_local_planner.trajectory import Samples
 
 
 @pytest.fixture
@@ -39,9 +39,3 @@ def test_counts_are_by_critic(samples):
     assert samples.reason(2) == "obstacle: the footprint meets an obstacle at point 2 of 4"
     assert samples.nearest(0.2, 0.0, -0.4) == 1
     assert len(samples.trajectory(1)) == 3
-
-
-def test_samples_of_two_phases_become_one(samples):
-    both = concatenated(samples, samples, best=3)
-    assert (len(both), both.best, both.refused) == (6, 3, 4)
-    assert both.counts()["obstacle"] == 2

@@ -52,19 +52,6 @@ def test_with_dwa_the_window_is_one_cycle():
     assert len(samples) == 20 * 20 + 20
 
 
-def test_turns_on_the_spot_are_no_slower_than_the_robot_can():
-    _, samples = planned(AHEAD)
-    spot = samples.velocities[-20:]
-    assert np.abs(spot[:, 2]).min() == 0.4
-    assert not spot[:, :2].any()
-
-
-def test_it_turns_towards_a_plan_behind_it():
-    _, samples = planned([(-x, 0.1 * x, 0.0) for x in np.arange(0, 1.4, 0.05)], replace(WHEELS, min_vel_x=0.0))
-    assert samples.commands[samples.best, 0] == 0
-    assert samples.commands[samples.best, 2] != 0
-
-
 def test_who_turned_right_twice_may_not_turn_left():
     turning = Turning()
     turning.record(-1.0)

@@ -14,18 +14,10 @@ from rosmini.navigation.nav_core import BaseGlobalPlanner, GoalBlocked, Planning
 from ..fake_costmap import planner, pose
 
 
-def test_the_goal_itself_if_it_is_legal():
-    assert nearest_legal_pose((0, 0, 0), (2, 1, 0.5), lambda _: True) == pytest.approx((2, 1, 0.5))
-
-
 def test_back_along_the_line_turning_the_short_way():
     found = nearest_legal_pose((0, 0, 3.0), (2, 1, -3.0), lambda pose: pose[0] < 1.001)
     turn = 2 * math.pi - 6.0
     assert found == pytest.approx((1.0, 0.5, 3.0 + turn / 2))
-
-
-def test_nowhere():
-    assert nearest_legal_pose((0, 0, 0), (2, 1, 0.5), lambda _: False) is None
 
 
 def test_the_plan_ends_where_the_footprint_fits():

@@ -65,12 +65,6 @@ def test_a_wrong_map_means_both(node, capsys):
     assert "Wrong value for affected_maps parameter: 'glocal'" in capsys.readouterr().err
 
 
-def test_inverted(node):
-    behavior, costmap, _ = made(node, layer_names=["obstacle_layer"], invert_area_to_clear=True)
-    behavior.run_behavior()
-    assert cleared(costmap)[0][-1] is True
-
-
 def test_the_default_clears_nothing_of_a_costmap_without_obstacles_and_says_so(node, capsys):
     behavior, costmap, _ = made(node)
     said = capsys.readouterr().err

@@ -199,16 +199,6 @@ def test_only_what_changed_is_computed_and_published(stage):
     assert (kept == 100).sum() == (costmap.grid.costs == 254).sum() == 1
 
 
-def test_a_late_listener_gets_all_of_it(stage):
-    stage.publish_map([[0, 100], [-1, 0]])
-    stage.costmap(plugins=layers("static"), track_unknown_space=True, **ROBOT)
-    messages = heard(stage, "move_base/costmap/costmap", "nav_msgs/OccupancyGrid")
-    stage.graph.run(0.3)
-    assert [list(message.data) for message in messages] == [[0, 100, -1, 0]]
-    assert messages[0].header.frame_id == "map"
-    assert messages[0].info.resolution == pytest.approx(0.1)
-
-
 @pytest.mark.parametrize(("update", "publish", "expected"), [(10.0, 10.0, 10), (10.0, 2.0, 2), (5.0, 0.0, 0)])
 def test_rates_are_those_of_graph_time(stage, update, publish, expected):
     parameters = {**WINDOW, "update_frequency": update, "publish_frequency": publish}
@@ -397,41 +387,6 @@ def test_a_cell_is_explained_layer_by_layer(stage):
     assert costmap.explain(29, 29)["inflation"] is None
 
 
-def test_an_area_can_be_cleared(stage):
-    costmap = stage.costmap(plugins=layers("obstacles", "inflation"), obstacles=BOTH, **WINDOW)
-    stage.pose = (0.0, 0.0, 0.0)
-    stage.scan([1.0] * 4)
-    stage.graph.run(0.2)
-    layer = costmap.layers[0]
-    mx, my = costmap.grid.world_to_map(1.0, 0.0)
-    layer.clear_area(mx - 2, my - 2, mx + 2, my + 2, inside=True)
-    layer.sources[0].observations.clear()
-    costmap.update()
-    assert (costmap.grid.costs == 254).sum() == 3
-    layer.clear_area(0, 0, 1, 1, inside=False)
-    costmap.update()
-    assert not (costmap.grid.costs >= 253).any()
-
-
-def test_a_polygon_gets_a_cost(stage):
-    costmap = stage.costmap(plugins=layers("obstacles"), **{**WINDOW, "update_frequency": 0.0})
-    costmap.update()
-    square = [(0.0, 0.0), (0.35, 0.0), (0.35, 0.35), (0.0, 0.35)]
-    assert costmap.set_costs(square, 200)
-    assert (costmap.grid.costs == 200).sum() == 16
-    assert not costmap.set_costs([(0, 0), (99, 0), (0, 1)], 1)
-
-
-def test_an_outline_that_crosses_itself_is_warned_of(stage, capfd):
-    stage.costmap(
-        plugins=layers("obstacles"),
-        footprint=[[0.1, 0.1], [-0.1, -0.1], [-0.1, 0.1], [0.1, -0.1]],
-        global_frame="odom",
-        rolling_window=True,
-    )
-    assert "the outline crosses itself" in log(capfd)
-
-
 def test_it_survives_a_gap_of_tf_and_a_scan_from_the_past(stage):
     costmap = stage.costmap(plugins=layers("obstacles"), obstacles=BOTH, **WINDOW)
     stage.tells.shutdown()
@@ -445,13 +400,3 @@ def test_it_survives_a_gap_of_tf_and_a_scan_from_the_past(stage):
     stage.scan([1.5] * 4, header=message_class("std_msgs/Header")(stamp=old, frame_id="base_link"))
     assert (costmap.grid.costs == 254).sum() == 4
     assert timer.is_alive()
-
-
-def test_it_shows_itself_with_its_own_numbers(stage):
-    costmap = stage.costmap(
-        plugins=layers("obstacles", "inflation"), inflation={"inflation_radius": 0.4}, obstacles=BOTH, **WINDOW
-    )
-    stage.scan([1.0] * 8)
-    assert "footprint of 16 points" in costmap.show().text
-    said = costmap.show_inflation().text
-    assert "inflation_radius 0.4 m, cost_scaling_factor 10, inscribed radius 0.098 m" in said

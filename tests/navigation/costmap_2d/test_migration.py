@@ -25,18 +25,6 @@ publish_frequency: 10.0
 transform_tolerance: 0.5
 static_map: true
 """
-ROBOTIS_LOCAL = """
-global_frame: odom
-robot_base_frame: base_link
-update_frequency: 10.0
-publish_frequency: 10.0
-transform_tolerance: 0.5
-static_map: false
-rolling_window: true
-width: 3
-height: 3
-resolution: 0.05
-"""
 STAGE_COMMON = """
 map_type: costmap
 transform_tolerance: 0.2
@@ -92,16 +80,6 @@ def test_robotis_global_costmap(stage, capfd):
         "obstacle_layer",
         "inflation_layer",
     ]
-
-
-def test_robotis_local_costmap(stage):
-    costmap = made(stage, ROBOTIS_COMMON, ROBOTIS_LOCAL)
-    assert tree(costmap) == [
-        ("obstacle_layer", "costmap_2d/ObstacleLayer"),
-        ("inflation_layer", "costmap_2d/InflationLayer"),
-    ]
-    assert (costmap.grid.width, costmap.grid.height, costmap.grid.resolution) == (60, 60, 0.05)
-    assert costmap.layered.is_rolling
 
 
 def test_navigation_stage_global_costmap(stage, capfd):

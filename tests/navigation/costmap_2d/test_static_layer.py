@@ -32,13 +32,6 @@ def test_obstacles_below_stand_with_use_maximum_alone(stage, rolls, use_maximum)
     assert (costmap.grid.costs == 254).sum() == (4 if use_maximum else 0)
 
 
-def test_without_use_maximum_unknown_cells_of_the_map_overwrite_too(stage):
-    stage.publish_map(np.full((40, 40), -1))
-    costmap = stage.costmap(plugins=layers("obstacles", "static"), obstacles=SCAN, track_unknown_space=True, **ROBOT)
-    stage.scan([0.8] * 4, seconds=0.5)
-    assert (costmap.grid.costs == 255).all()
-
-
 def test_a_rolling_window_shows_its_part_of_the_map(stage):
     occupancy = np.zeros((30, 20))
     occupancy[12, 15] = 100
@@ -114,15 +107,6 @@ def test_an_update_that_does_not_fit_is_told_and_not_taken(stage, capfd, x, y, c
     stage.graph.run(0.3)
     assert not costmap.grid.costs.any()
     assert "does not fit the map of 10 x 10" in "".join(capfd.readouterr())
-
-
-def test_without_subscribe_to_updates_nobody_hears_them(stage):
-    stage.publish_map(np.zeros((10, 10)))
-    costmap = stage.costmap(plugins=layers("static"), **ROBOT)
-    stage.graph.run(0.3)
-    updates(stage)(0, 0, [[100]])
-    stage.graph.run(0.3)
-    assert not costmap.grid.costs.any()
 
 
 def updates(stage):

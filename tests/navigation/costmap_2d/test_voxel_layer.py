@@ -56,9 +56,3 @@ def test_the_columns_roll_with_the_window(stage, costmap):
     assert [(mx, my) for my, mx in np.argwhere(grid.costs == 254)] == [grid.world_to_map(1.03, 0.03)]
     columns = costmap.layers[0].columns
     assert [(mx, my) for my, mx in np.argwhere(columns >> 16)] == [grid.world_to_map(1.03, 0.03)]
-
-
-def test_a_reset_forgets_the_voxels(stage, costmap):
-    put(stage, (1.03, 0.03, 0.8))
-    costmap.reset_layers()
-    assert not (costmap.layers[0].columns >> 16).any()

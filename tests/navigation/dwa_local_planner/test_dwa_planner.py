@@ -71,14 +71,6 @@ def test_a_wall_ahead_rejects_what_runs_into_it():
     assert planner.why_not(grid, (0.0, 0.0, 0.0), np.zeros(3), np.array([-0.22, 0, 0])) == ""
 
 
-def test_between_walls_nothing_is_possible_and_the_counts_say_why():
-    grid = local_grid()
-    grid.costs[28:33, 28:33] = 254
-    _, samples = planned(grid, straight())
-    assert samples.best is None
-    assert samples.counts()["obstacle"] == len(samples)
-
-
 def test_totals_are_the_sum_of_what_the_critics_gave():
     grid = local_grid()
     grid.costs[:] = np.random.default_rng(3).integers(0, 200, grid.costs.shape)
@@ -89,37 +81,12 @@ def test_totals_are_the_sum_of_what_the_critics_gave():
     assert samples.best == int(np.argmin(np.where(samples.accepted, samples.totals, np.inf)))
 
 
-def test_the_critics_give_what_the_grids_say():
-    grid = local_grid()
-    grid.costs[:] = np.random.default_rng(3).integers(0, 200, grid.costs.shape)
-    planner, samples = planned(grid, straight(), velocity=(0.15, 0, 0.5))
-    path, goal, front = planner.grids
-    for number in range(0, len(samples), 29):
-        x, y, theta = samples.trajectory(number)[-1]
-        mx, my = grid.world_to_map(x, y)
-        nose = grid.world_to_map(x + 0.325 * math.cos(theta), y + 0.325 * math.sin(theta))
-        given = dict(zip(samples.critics, samples.raw[number], strict=True))
-        assert given["path"] == path.distances[my, mx]
-        assert given["goal"] == goal.distances[my, mx]
-        assert given["alignment"] == path.distances[nose[1], nose[0]]
-        assert given["goal_front"] == front.distances[nose[1], nose[0]]
-
-
 def test_near_the_goal_the_nose_may_leave_the_plan():
     planner, samples = planned(local_grid(), straight(0.3))
     assert dict(zip(CRITICS, samples.scales, strict=True))["alignment"] == 0
     assert "alignment" not in samples.explain(samples.best)
     planner.update_plan(local_grid(), (0.0, 0.0, 0.0), straight(), FOOTPRINT)
     assert planner.scales(0.05)[3] == pytest.approx(1.6)
-
-
-def test_without_the_window_it_may_accelerate_for_the_whole_time():
-    from dataclasses import replace
-
-    far = replace(BURGER, use_dwa=False, acc_lim_x=0.1, max_vel_trans=1.0, max_vel_x=1.0)
-    _, samples = planned(local_grid(), straight(), parameters=far)
-    assert samples.velocities[:, 0].max() == pytest.approx(0.15)
-    assert samples.commands[:, 0].max() < 0.05
 
 
 def test_a_holonomic_robot_goes_sideways_to_a_goal_beside_it():

@@ -101,8 +101,3 @@ def test_a_prefix(graph, buffer):
         robot.tell_truth(3.0, 1.0)
         graph.run(0.1)
     assert place(buffer, "tb3_0/map", "tb3_0/base_footprint") == (3.0, 1.0)
-
-
-def test_a_parameter_of_another_release_is_warned_of(graph, capsys):
-    start(graph, "_odom_frame:=odom", "_odom_frame_id:=wheels")
-    assert "did you mean ~odom_frame_id" in capsys.readouterr().err

@@ -9,9 +9,8 @@ import pytest
 
 from rosmini.core.graph import Graph
 from rosmini.core.maps import GridMap, save_map
-from rosmini.core.packages import PackageIndex, assets_dir
 from rosmini.msgs import message_class
-from rosmini.ros.launch import LaunchError, find_file, roslaunch
+from rosmini.ros.launch import roslaunch
 
 LAUNCH = """<launch>
   <node pkg="rosmini_sim" type="simulator" name="simulator">
@@ -114,18 +113,3 @@ def test_frontier_exploration_ends_by_itself_and_the_older_nodes_are_ended(graph
     trial.click(*AREA)
     assert trial.run("Finished exploring room"), trial.said("Failed")
     assert trial.share > 0.9
-
-
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        (("frontier-exploration", "global_map.launch"), "did you mean frontier_exploration?"),
-        (("explore_lite", "global_map.launch"), "the package has explore.launch, explore_costmap.launch"),
-        (("explore-lite", "explore.launch"), "did you mean explore_lite?"),
-    ],
-)
-def test_slips_are_answered(words, said):
-    index = PackageIndex([assets_dir() / "ros"])
-    with pytest.raises(LaunchError) as caught:
-        find_file(list(words), index)
-    assert said in str(caught.value)

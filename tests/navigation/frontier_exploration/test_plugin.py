@@ -80,13 +80,6 @@ def test_which_point_of_a_frontier(stage, point, wanted):
     assert bounded.next(0.95, 0.85) == wanted
 
 
-def test_a_pose_needs_no_orientation(bounded):
-    bounded.bound((0.7, 0.7), (2.5, 0.7), (2.5, 1.5), (0.7, 1.5))
-    pose = message_class("geometry_msgs/PoseStamped")()
-    pose.header.frame_id, pose.pose.position.x, pose.pose.position.y = "map", 1.05, 1.05
-    assert bounded._next(pose).next_frontier.pose.position.x == pytest.approx(2.05)
-
-
 def test_without_a_vertex_the_costmap_is_the_area(bounded):
     bounded.bound()
     assert bounded.next(1.05, 1.45) in {(0.45, 1.45), (1.05, 2.05)}
@@ -137,11 +130,3 @@ def test_boundaries_that_are_none(bounded, stage, points, frame, text):
     assert stage.logs[-1].level == 8
     bounded.bound((0.7, 0.7), (2.5, 0.7), (2.5, 1.5), (0.7, 1.5))
     assert bounded.next(1.05, 1.05) == (2.05, 1.05), "and the next one is taken"
-
-
-def test_asked_before_there_is_a_boundary_or_from_outside(bounded):
-    with pytest.raises(ServiceException, match="call update_boundary_polygon first"):
-        bounded.next(1.05, 1.05)
-    bounded.bound()
-    with pytest.raises(ServiceException, match="Robot out of costmap bounds"):
-        bounded.next(11.0, 1.05)

@@ -56,11 +56,6 @@ def test_growth_makes_room_in_blocks(seen):
     assert grown(found, seen, 0.05) == found
 
 
-def test_a_map_that_was_not_seen_has_its_first_size():
-    first = Extent(-200, -200, 384, 384)
-    assert grown(first, Extent(0, 0, 0, 0), 0.05) == first
-
-
 def test_a_map_that_would_grow_too_large_is_an_error():
     slam = GridSlam(Settings(particles=1), random=np.random.default_rng(0))
     slam.process(np.array([3.0]), np.zeros(1), (0.0, 0.0, 0.0), 0.0)

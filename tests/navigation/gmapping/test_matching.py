@@ -73,17 +73,6 @@ def test_a_search_finds_the_pose(maps, off):
     assert found.scores[0] >= start.scores[0]
 
 
-def test_beams_of_no_use_are_left_out(maps):
-    ranges = square(0.0, 0.0, 0.0)
-    every = Matcher().match(maps, np.zeros((1, 3)), ranges, BEARINGS, 10.0)
-    fewer = Matcher(lskip=1).match(maps, np.zeros((1, 3)), ranges, BEARINGS, 10.0)
-    none = Matcher().match(maps, np.zeros((1, 3)), ranges, BEARINGS, 1.0)
-    assert fewer.scores[0] == pytest.approx(every.scores[0] / 2, rel=0.2)
-    assert none.scores[0] == 0.0
-    ranges[:90] = 0.0
-    assert Matcher().match(maps, np.zeros((1, 3)), ranges, BEARINGS, 10.0).scores[0] < 91
-
-
 def test_giving_up_early_changes_no_result(maps):
     """A pose that cannot beat `least` may be left: what it has then is no more than `least`."""
     ranges = square(0.1, 0.3, 0.2)
@@ -115,9 +104,3 @@ def test_a_pose_that_scores_too_little_is_weighed_where_it_was(maps):
     assert kept.poses == pytest.approx(start)
     assert kept.log_likelihoods[0] == still.log_likelihoods[0] < better.log_likelihoods[0]
     assert kept.scores[0] == better.scores[0], "the score is the match's"
-
-
-def test_poses_beyond_the_map_hit_nothing(maps):
-    far = Matcher().match(maps, np.array([(500.0, -80.0, 0.0)]), square(0.0, 0.0, 0.0), BEARINGS, 10.0)
-    assert far.scores[0] == 0.0
-    assert far.log_likelihoods[0] == pytest.approx(-0.5 / 0.075 * len(BEARINGS))

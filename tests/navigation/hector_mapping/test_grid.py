@@ -9,8 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.core.errors import RosminiError
-from rosmini.navigation.hector_mapping.grid import OccupancyGrid, log_odds, passed_cells
+from rosmini.navigation.hector_mapping.grid import OccupancyGrid, passed_cells
 
 FREE, HIT = math.log(0.4 / 0.6), math.log(0.9 / 0.1)
 
@@ -62,14 +61,6 @@ def test_what_is_hit_is_not_passed_and_each_cell_changes_once():
     assert shown.origin == pytest.approx((-2.05, -2.05, 0.0)), "the middle of cell (0, 0) is at -2"
 
 
-def test_beams_that_leave_the_map_change_nothing():
-    grid = a_grid()
-    grid.update((0.0, 0.0), np.array([[3.0, 0.0], [0.02, 0.02], [math.inf, 0.0]][:2]))
-    grid.update((9.0, 0.0), np.array([[0.5, 0.0]]))
-    grid.update((0.0, 0.0), np.empty((0, 2)))
-    assert not grid.odds.any()
-
-
 def test_odds_over_a_long_time():
     """Upwards they end above 50, downwards never; probabilities stay numbers, without a warning."""
     grid = a_grid()
@@ -80,9 +71,3 @@ def test_odds_over_a_long_time():
     assert grid.odds[20, 22] == pytest.approx(2500 * FREE, rel=1e-3)
     assert grid.probabilities[20, 25] == 1.0
     assert 0 <= grid.probabilities[20, 22] < 1e-30
-
-
-@pytest.mark.parametrize("factor", [0.0, 1.0, -0.2, math.nan])
-def test_factors_that_are_no_probability(factor):
-    with pytest.raises(RosminiError, match="must be a probability"):
-        log_odds(factor)

@@ -97,24 +97,6 @@ def test_a_match_finds_a_known_shift(grid, off):
     assert (deviations < 0.02).all(), "it says that it knows"
 
 
-def test_levels_agree():
-    """A match on a coarser map is less exact, and finds the same pose."""
-    truth = (0.2, 0.0, 0.1)
-    found = [match(a_map(size), room(truth), (0.25, 0.05, 0.07), 15).pose for size in (0.05, 0.1)]
-    assert found[0] == pytest.approx(truth, abs=0.015)
-    assert found[1] == pytest.approx(truth, abs=0.04)
-
-
-def test_a_coarse_map_finds_from_farther():
-    """Why there are several: half a metre away, only the coarse one leads back."""
-    truth = (0.1, 0.1, 0.0)
-    away = (0.35, -0.15, 0.0)
-    fine, coarse = a_map(0.025), a_map(0.2)
-    assert math.dist(match(fine, room(truth), away, 5).pose[:2], truth[:2]) > 0.1
-    led = match(coarse, room(truth), away, 5).pose
-    assert math.dist(led[:2], truth[:2]) < 0.1
-
-
 def test_where_nothing_holds(grid):
     """Along a wall the covariance is large in one direction; off the map nothing is known; nothing moves."""
     wall = np.column_stack([np.full(40, 1.9), np.linspace(-0.4, 0.4, 40)])

@@ -16,6 +16,7 @@ from rosmini.msgs import message_class, service_class
 from rosmini.ros.launch import roslaunch
 from rosmini.sim.simulator import Simulator
 
+from ...conftest import nightly
 from .test_matching import BEARINGS, room
 
 TOPICS = {
@@ -234,14 +235,6 @@ def test_scans_that_cannot_be(graph):
     assert laser.pose == pytest.approx((0.05, 0.0), abs=0.02), "scans may have other lengths"
 
 
-def test_levels_of_less_than_two_cells_have_no_effect(graph):
-    laser = Laser(graph, map_size=32, map_resolution=0.2, map_multi_res_levels=100)
-    assert [grid.odds.shape[0] for grid in laser.mapper.slam.maps] == [32, 16, 8, 4, 2]
-    laser.see(0.0, 0.0)
-    assert laser.mapper.slam.updates == 1
-    assert laser.said("~map_multi_res_levels is 100")
-
-
 def test_time_that_jumps_back(graph):
     """A bag that loops: the robot is where it began, and not where the map has it."""
     laser = Laser(graph)
@@ -269,7 +262,7 @@ def test_a_robot_that_leans(graph):
     assert len(columns) > 50, "the walls at the sides are not"
 
 
-@pytest.mark.parametrize("own", [True, False])
+@pytest.mark.parametrize("own", [True, *nightly(False)])
 def test_a_start_by_tf(graph, own):
     """A quarter of a turn between two scans: only with the odometry as start is it found."""
     laser = Laser(graph, use_tf_pose_start_estimate="true", odom_frame="odom", pub_map_odom_transform=str(own).lower())

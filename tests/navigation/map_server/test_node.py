@@ -7,7 +7,7 @@ import re
 import numpy as np
 import pytest
 
-from rosmini.core.errors import ParameterError, ServiceException, UsageError
+from rosmini.core.errors import ServiceException, UsageError
 from rosmini.core.graph import Graph
 from rosmini.core.maps import GridMap, MapDataError, MapError, MapMetadataError, MapMissing, save_map
 from rosmini.msgs import message_class, service_class
@@ -76,11 +76,6 @@ def test_the_map_is_latched_and_asked_for(files):
         "Read a 3 X 2 map @ 0.050 m/cell",
         "Sending map",
     ]
-
-
-def test_a_map_of_ours_is_logged_by_its_package():
-    bench = Bench("package://rosmini_sim/maps/floor.yaml").start()
-    assert bench.said[0] == 'Loading map from image "package://rosmini_sim/maps/floor.png"'
 
 
 def test_another_map_takes_its_place(files):
@@ -170,22 +165,6 @@ def test_the_deprecated_form_has_its_thresholds_from_parameters(files):
 def test_a_command_line_that_makes_no_sense_is_told(arguments, said):
     with pytest.raises(UsageError, match=said):
         Bench(*arguments).start()
-
-
-def test_a_resolution_of_nothing_is_told(files):
-    with pytest.raises(MapMetadataError, match="'resolution' is 0"):
-        Bench(files / "one.pgm", "0").start()
-
-
-def test_a_parameter_of_the_wrong_type_is_told(files):
-    with pytest.raises(ParameterError, match="frame_id"):
-        Bench(files / "one.yaml", parameters={"frame_id": 7}).start()
-
-
-def test_a_parameter_that_it_does_not_have_is_warned_of(files):
-    bench = Bench(files / "one.yaml", parameters={"frame": "floor", "frame_id": "ground"}).start()
-    assert bench.server.parameters.frame_id == "ground"
-    assert any("has no parameter ~frame; did you mean ~frame_id" in said for said in bench.said)
 
 
 def test_with_simulated_time_the_map_waits_for_the_clock(files):

@@ -76,19 +76,6 @@ def test_a_file_that_cannot_be_written_ends_it_with_a_reason(graph):
     assert any("Couldn't save map file to nowhere" in text for _, text in graph.said)
 
 
-def test_a_map_that_is_none_ends_it_with_a_reason(graph):
-    message = GridMap(CELLS, 0.05, (0.0, 0.0, 0.0)).to_message()
-    message.info.width = 7
-    publish(graph, message)
-    assert rosrun("map_server", "map_saver", graph=graph).wait(5.0) == 1
-    assert any("a map of 7 x 2 cells needs 14 of them" in text for _, text in graph.said)
-
-
-def test_help(graph, capsys):
-    assert rosrun("map_server", "map_saver", "-h", graph=graph).wait(5.0) == 0
-    assert "map_saver [--occ <threshold_occupied>]" in capsys.readouterr().out
-
-
 @pytest.mark.parametrize(
     ("words", "said"),
     [
@@ -105,7 +92,3 @@ def test_help(graph, capsys):
 def test_a_command_line_that_makes_no_sense_is_told(words, said):
     with pytest.raises(UsageError, match=said):
         SaverOptions.of(tuple(words.split()))
-
-
-def test_what_is_not_said_is_as_in_ros():
-    assert SaverOptions.of(()) == SaverOptions("map", 65, 25)

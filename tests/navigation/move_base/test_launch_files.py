@@ -11,6 +11,8 @@ from rosmini.msgs.move_base_msgs.msg import MoveBaseAction, MoveBaseGoal
 from rosmini.navigation.nav_core import pose_stamped
 from rosmini.ros.launch import roslaunch
 
+from ...conftest import nightly
+
 
 def launch(graph, *files, seconds=3.0):
     said = io.StringIO()
@@ -31,7 +33,7 @@ def send(graph, x, y, yaw=0.0):
     return client.get_state()
 
 
-@pytest.mark.parametrize("model", ["waffle", "waffle_pi"])
+@pytest.mark.parametrize("model", ["waffle_pi", *nightly("waffle")])
 def test_each_model_has_its_files(graph, model):
     house = str(assets_dir() / "ros/rosmini_sim/maps/house.yaml")
     where = {"map_file": house, "model": model, "localization": "fake_localization", "open_rviz": False}

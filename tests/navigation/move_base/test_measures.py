@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.navigation.costmap_2d import LETHAL_OBSTACLE, Costmap2D
-from rosmini.navigation.move_base.measures import clearance, lethal_cells, narrowest, obstacles
+from rosmini.navigation.move_base.measures import clearance, narrowest
 
 SQUARE = [(-0.1, -0.1), (0.1, -0.1), (0.1, 0.1), (-0.1, 0.1)]
 
@@ -39,11 +39,3 @@ def test_the_narrowest_place():
     x, _, away = narrowest(grid((50, 56), (30, 40)), path)
     assert (x, away) == pytest.approx((2.525, 0.3), abs=0.03)
     assert narrowest(grid(), path) is None
-
-
-def test_obstacles_at_the_edge():
-    assert obstacles(grid((0, 0)), 0.0, 0.0, 0.5).tolist() == [[0.025, 0.025]]
-
-
-def test_lethal_cells_are_counted_in_layers_that_have_costs():
-    assert lethal_cells([grid((1, 1), (2, 2)), object()]) == 2

@@ -5,8 +5,7 @@ import io
 import pytest
 
 from rosmini.core.graph import Graph
-from rosmini.navigation.move_base.parts import RECOVERIES, STATES, TRANSFORMS, Link, structure_of
-from rosmini.navigation.move_base.plugins import GLOBAL
+from rosmini.navigation.move_base.parts import RECOVERIES, STATES, TRANSFORMS, structure_of
 from rosmini.navigation.nav_core import BaseGlobalPlanner
 from rosmini.ros.launch import roslaunch
 
@@ -56,24 +55,3 @@ def test_the_lines_name_what_is_loaded(move_base):
     assert found["global planner"].lines == ("global planner", "navfn/NavfnROS")
     assert found["local_costmap"].lines[1:] == ("60 x 60 cells, frame odom", "obstacle_layer", "inflation_layer")
     assert found[RECOVERIES].lines[1:3] == ("1. conservative_reset", "2. rotate_recovery")
-
-
-def test_another_planner_takes_the_place_of_the_old_one(move_base):
-    costs = Link("global_costmap", "global planner", "costs")
-    assert costs in structure_of(move_base).links
-    move_base.planners.load(GLOBAL, "test_parts/Blind")
-    try:
-        assert parts(move_base)["global planner"].lines[1] == "test_parts/Blind"
-        assert costs not in structure_of(move_base).links
-    finally:
-        move_base.planners.load(GLOBAL, "navfn/NavfnROS")
-
-
-def test_recoveries_are_there_if_there_are_any(move_base, monkeypatch):
-    links = set(structure_of(move_base).links)
-    assert {Link(RECOVERIES, each, "clear") for each in ("global_costmap", "local_costmap")} < links
-    turns = [each for each in move_base.recovery_behaviors if each.name == "rotate_recovery"]
-    monkeypatch.setattr(move_base, "recovery_behaviors", turns)
-    assert not [link for link in structure_of(move_base).links if link.label == "clear"]
-    monkeypatch.setattr(move_base, "recovery_behaviors", [])
-    assert RECOVERIES not in parts(move_base)

@@ -119,30 +119,6 @@ def test_oscillation():
     assert it.step().text == Trigger.OSCILLATION.value
 
 
-def test_without_a_timeout_nothing_oscillates():
-    it = machine()
-    it.plan_found(0.1)
-    assert not it.check_oscillation(1e6)
-
-
-def test_disabled_recoveries_abort_at_once():
-    it = machine(recovery_behavior_enabled=False, max_planning_retries=0)
-    it.plan_failed(0.1)
-    assert isinstance(it.step(), Abort)
-
-
-def test_a_new_goal_starts_everything_again():
-    it = machine(max_planning_retries=0)
-    it.plan_failed(1.0)
-    it.step()
-    it.recovered(2.0)
-    assert it.step() == Plan()
-    it.plan_failed(2.1)
-    assert it.step() == Recover(1)
-    it.start_goal(3.0)
-    assert (it.state, it.recovery_index, it.retries, it.wants_plan) == (State.PLANNING, 0, 0, True)
-
-
 steps = st.lists(
     st.tuples(
         st.sampled_from(["plan", "no plan", "command", "no command", "oscillates", "goal", "end", "cycle"]),

@@ -6,7 +6,7 @@ import pytest
 
 from rosmini.core.errors import RosminiError
 from rosmini.navigation.nav_core import PlanningFailure
-from rosmini.navigation.navfn import HandSearch, show_steps
+from rosmini.navigation.navfn import HandSearch
 
 PRICE = {(x, y): 3 if x == 1 else 1 for x in range(4) for y in range(2) if (x, y) != (2, 0)}
 """Four columns of two cells; (2, 0) is a wall, and column 1 is dear."""
@@ -36,22 +36,12 @@ def test_the_path_goes_from_parent_to_parent():
     assert made().path().tolist() == [[0, 0], [0, 1], [1, 1], [2, 1], [3, 1]]
 
 
-def test_walls_and_prices_are_seen():
-    search = made()
-    assert search.costs[1:-1, 1:-1].tolist() == [[0, 60, 254, 0], [0, 60, 0, 0]]
-
-
 def test_one_without_the_goal_fails_as_others_do():
     search = made((3, 0), taken=TAKEN[:3], cost=dict(list(COST.items())[:4]))
     search.expand()
     assert search.finished and not search.arrived
     with pytest.raises(PlanningFailure):
         search.path()
-
-
-def test_it_is_stepped_in_a_page():
-    view = show_steps({"mine": made()}, title="By hand")
-    assert view.text == ("By hand\nmine: 6 cells taken up, 7 of 8 reached, path of 4.0 cells, potential 6 at the goal")
 
 
 def test_what_does_not_fit_is_refused():

@@ -73,17 +73,6 @@ def test_a_search_in_steps_is_the_same_search(grid, count, a_star):
     assert (steps.arrived, steps.expanded) == (whole.arrived, whole.expanded)
 
 
-def test_parents_lead_to_the_start():
-    search = NavfnSearch(np.zeros((20, 30), np.uint8), (4, 4), (25, 15), full=True)
-    search.expand()
-    cell, steps = (25, 15), 0
-    while cell != (4, 4):
-        cell = tuple(search.parents[cell[1], cell[0]])
-        steps += 1
-    assert steps == 21 + 11
-    assert search.parents[4, 4].tolist() == [-1, -1]
-
-
 def test_a_straight_corridor_has_the_potential_of_its_cells():
     costs = np.full((3, 12), 254, np.uint8)
     costs[1] = 0
@@ -140,8 +129,3 @@ def test_a_path_does_not_slip_between_two_obstacles_that_touch_at_a_corner():
     gone = {(round(x), round(y)) for x, y in path}
     assert not {(5, 6), (6, 5)} <= gone
     assert all(costs[row, column] != 254 for column, row in crossed(path))
-
-
-def test_start_and_goal_in_one_cell():
-    path = NavfnSearch(np.zeros((5, 5), np.uint8), (2, 2), (2, 2)).path()
-    assert path.tolist() == [[2.0, 2.0]]

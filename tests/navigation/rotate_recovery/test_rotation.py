@@ -26,10 +26,6 @@ def test_a_free_turn_and_one_that_is_not():
     assert cost == -1.0
 
 
-def test_nothing_left_is_free():
-    assert first_collision(0.0, 0.0, 0.017, lambda _: -1.0) is None
-
-
 @pytest.mark.parametrize(("remaining", "speed"), [(2 * math.pi, 1.0), (0.1, 0.8), (0.001, 0.4)])
 def test_speed(remaining, speed):
     assert turn_speed(remaining, 3.2, 0.4, 1.0) == pytest.approx(speed)
