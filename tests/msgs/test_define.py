@@ -39,13 +39,6 @@ def test_a_service_is_offered_and_called() -> None:
         assert graph.node("client").service_client("half", half)(5).half == 2.5
 
 
-def test_the_service_of_a_file_has_its_md5_sum() -> None:
-    # what `rossrv md5 std_srvs/SetBool` prints
-    assert define_service("std_srvs/SetBool", "bool data\n---\nbool success\nstring message")._md5sum == (
-        "09fb03525b03e7ea1fd3992bafd87e16"
-    )
-
-
 def test_what_is_wrong_is_named() -> None:
     with pytest.raises(DefinitionError, match="int33"):
         define_message("my_robot/Wrong", "int32 a\nint33 B=1")

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 MEGABYTE = 1024 * 1024
-ROUNDS = 80
+ROUNDS = 40
 
 TYPES = [
     "sensor_msgs/LaserScan",

@@ -10,6 +10,7 @@ import pytest
 
 from rosmini.tools.main import main
 
+from ..conftest import nightly
 from ..processes import run
 
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="a POSIX shell")
@@ -86,7 +87,7 @@ else:
 
 
 @pytest.mark.processes
-@pytest.mark.parametrize(("shell", "bare"), [("sh", False), ("bash", True)])
+@pytest.mark.parametrize(("shell", "bare"), [("sh", False), *nightly(("bash", True))])
 def test_the_walk_of_the_report_works_command_for_command(tmp_path: Path, shell: str, bare: bool) -> None:
     names = {name: name if bare else f"rosmini {name}" for name in TOOLS.split()}
     (tmp_path / "edit.py").write_text(EDIT, encoding="utf-8")

@@ -13,7 +13,8 @@ import rosmini.__main__ as entry
 import rosmini.tools.main as cli
 from rosmini.core.errors import RosminiError
 
-from ..processes import run
+from ..processes import free_port, run
+from .transcripts import read
 
 
 def python(code: str, **env: str) -> subprocess.CompletedProcess[str]:
@@ -34,12 +35,29 @@ def test_help_lists_the_commands_without_importing_them():
     assert max(map(len, done.stdout.splitlines())) <= 100
 
 
-def test_every_command_has_its_own_help(capsys):
+def test_every_command_and_every_verb_has_its_own_help(capsys):
     for name in cli.COMMANDS:
         with pytest.raises(SystemExit) as end:
             cli.main([name, "--help"])
         assert end.value.code == 0
         assert f"usage: rosmini {name}" in capsys.readouterr().out.replace("Usage:", "usage:")
+    for name in ("rosnode", "rostopic", "rosservice", "rosmsg", "rossrv"):
+        for verb in cli.COMMANDS[name].tool().verbs:
+            assert cli.main([name, verb, "-h"]) == 0
+            said = capsys.readouterr().out
+            assert said.startswith(f"Usage: {name} {verb}")
+            assert f"Example:\n  rosmini {name} {verb}" in said
+
+
+@pytest.mark.parametrize("line", ["rosnode list", "rostopic list", "rosservice list"])
+def test_without_a_master_a_tool_says_what_to_do(line, monkeypatch, capsys):
+    monkeypatch.setenv("ROS_MASTER_URI", f"http://127.0.0.1:{free_port()}")
+    text, status = read("errors_no_master")[line]
+    assert cli.main(line.split()) == status
+    said = capsys.readouterr().err
+    assert said.startswith(text)
+    assert "rosmini roscore" in said
+    assert "ROS_MASTER_URI" in said
 
 
 def test_no_command_names_what_most_people_want_and_fails(capsys):

@@ -166,13 +166,6 @@ def test_bags_are_written_to_another_folder(bag, capsys):
     assert [path.name for path in bag.glob("*.bag")] == ["t.bag"]
 
 
-def test_each_verb_has_help_with_an_example(capsys):
-    from rosmini.tools.rosbag import TOOL
-
-    for verb in TOOL.verbs:
-        assert f"Example:\n  rosmini rosbag {verb} " in run(capsys, verb, "-h")[1]
-
-
 def test_a_bag_that_is_not_there_is_an_error_of_ours(bag, capsys):
     """A notebook shows it without the frames of rosmini, and says which file may be meant."""
     with Graph() as graph:

@@ -10,7 +10,6 @@ import pytest
 from rosmini.core.verbs import VerbError
 from rosmini.tools.main import main
 from rosmini.tools.rospack import TOOL as ROSPACK
-from rosmini.tools.rosstack import TOOL as ROSSTACK
 
 from ..core.packages.workspaces import a_workspace
 
@@ -22,19 +21,6 @@ def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.delenv("CMAKE_PREFIX_PATH", raising=False)
     monkeypatch.chdir(tmp_path)
     return tmp_path / "ws"
-
-
-def test_in_python_the_verbs_return_lines(workspace: Path) -> None:
-    assert ROSPACK.run("find", "renamed").lines == (str(workspace / "other_folder"),)
-    assert ROSPACK.run("depends", "mixed").lines == ("beta", "gamma", "alpha")
-    assert ROSPACK.run("depends-on1", "gamma").lines == ("alpha", "mixed")
-    assert set(ROSPACK.run("depends-on", "gamma").lines) == {"alpha", "mixed", "renamed"}
-    assert ROSSTACK.run("contents", "gathering").lines == ("alpha", "beta")
-
-
-def test_the_packages_that_rosmini_brings_are_there_too(workspace: Path) -> None:
-    assert "std_msgs" in ROSPACK.run("list-names").lines
-    assert "std_msgs" in ROSPACK.run("depends1", "geometry_msgs").lines
 
 
 @pytest.mark.parametrize(
@@ -76,29 +62,6 @@ def test_dependencies_with_many_paths_are_listed_once(workspace: Path) -> None:
         text = manifest.replace("gamma", f"p{i}").replace("</package>", f"{needs}</package>")
         (folder / "package.xml").write_text(text, encoding="utf-8")
     assert len(ROSPACK.run("depends", "p0").lines) == 38
-
-
-def test_the_command_prints_and_returns_the_status(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["rospack", "find", "alpha"]) == 0
-    assert capsys.readouterr().out == f"{workspace / 'alpha'}\n"
-    assert main(["rospack", "fnd", "alpha"]) == 1
-    assert capsys.readouterr().err == "[rospack] Error: command fnd not implemented\ndid you mean find?\n"
-    with pytest.raises(SystemExit):
-        main(["rospack", "help"])
-    assert "plugins" in capsys.readouterr().out
-    assert main(["rospack", "find", "-h"]) == 0
-    assert "for example: rosmini rospack find std_msgs" in capsys.readouterr().out
-
-
-def test_rosversion(workspace: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    monkeypatch.delenv("ROS_DISTRO", raising=False)
-    for words, printed in (
-        (["alpha"], "1.2.3\n"), (["-s", "alpha"], "1.2.3"), (["-d"], "noetic\n")
-    ):  # fmt: skip
-        assert main(["rosversion", *words]) == 0
-        assert capsys.readouterr().out == printed
-    assert main(["rosversion", "alpa"]) == 1
-    assert "did you mean alpha" in capsys.readouterr().err
 
 
 def test_roscd_and_rosls(workspace: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:

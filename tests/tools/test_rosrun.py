@@ -116,35 +116,6 @@ def session(workspace: Path) -> Iterator[Session]:
         yield Session(workspace, stack)
 
 
-def test_two_nodes_in_processes_of_their_own_talk(session: Session) -> None:
-    core = session.core()
-    listener = session.start("listener", "rosrun", "speaking", "listener.py")
-    talker = session.start("talker", "rosrun", "speaking", "talker.py", "__name:=speaker", "_greeting:=[1, 2]")
-    session.until_said("listener", "heard hello from /speaker [1, 2]", listener)
-    assert re.fullmatch(r"\[INFO\] \[\d+\.\d{6}\]: said it\n", session.said("talker"))
-    assert session.nodes() == {"/rosout", "/listener", "/speaker"}
-    talker.send_signal(signal.SIGINT)
-    assert talker.wait(PATIENCE) == 0
-    assert session.said("talker").endswith("said it\nthe talker ends\n")
-    listener.send_signal(signal.SIGTERM)
-    assert listener.wait(PATIENCE) == 0
-    assert session.nodes() == {"/rosout"}
-    core.send_signal(signal.SIGINT)
-    assert core.wait(PATIENCE) == 0
-
-
-def test_a_built_in_node_runs_in_a_process_of_its_own(session: Session) -> None:
-    session.core()
-    simulator = session.start("sim", "rosrun", "rosmini_sim", "simulator", "_world:=house", "__ns:=/robot1")
-    wait_until(lambda: session.ask("lookupService", "/robot1/reset_positions")[0] == 1, "its set-up", simulator)
-    wait_until(lambda: ["/robot1/scan", "sensor_msgs/LaserScan"] in session.ask("getPublishedTopics", "")[2],
-               "the simulator", simulator)  # fmt: skip
-    assert session.ask("getParam", "/robot1/simulator/world")[2] == "house"
-    simulator.send_signal(signal.SIGINT)
-    assert simulator.wait(PATIENCE) == 0
-    assert session.nodes() == {"/rosout"}
-
-
 def test_without_a_master_a_node_says_so_once_and_waits_for_it(session: Session) -> None:
     listener = session.start("listener", "rosrun", "speaking", "listener.py")
     complaint = (
@@ -157,23 +128,6 @@ def test_without_a_master_a_node_says_so_once_and_waits_for_it(session: Session)
     session.until_said("listener", "heard hello from /talker", listener)
     assert session.said("listener").count("Unable to register") == 1
     assert re.match(r"\[ERROR\] \[\d+\.\d{6}\]: Unable", session.said("listener"))
-
-
-def test_a_master_that_comes_back_is_told_everything_again(session: Session) -> None:
-    core = session.core()
-    listener = session.start("listener", "rosrun", "speaking", "listener.py")
-    wait_until(lambda: ["/chatter", ["/listener"]] in session.ask("getSystemState")[2][1], "the listener", listener)
-    core.kill()
-    core.wait(PATIENCE)
-    session.until_said("listener", "does not answer any more", listener)
-    session.core("second core")
-    session.until_said("listener", "is back: /listener registers again", listener)
-    wait_until(lambda: ["/chatter", ["/listener"]] in session.ask("getSystemState")[2][1], "its return", listener)
-    session.start("talker", "rosrun", "speaking", "talker.py")
-    session.until_said("listener", "heard hello from /talker", listener)
-    said = session.said("listener")
-    assert said.count("does not answer any more") == 1
-    assert said.count("is back: /listener registers again") == 1
 
 
 def test_each_process_has_its_own_anonymous_names_and_log_files(session: Session) -> None:

@@ -15,7 +15,6 @@ from rosmini.msgs.nav_msgs.srv import GetPlan
 from rosmini.msgs.std_srvs.srv import Empty, SetBool, Trigger
 from rosmini.tools.rosservice import TOOL
 
-from ..processes import free_port
 from .transcripts import assert_golden, masked, printed, read, talkers
 
 REAL = read("rosservice")
@@ -52,22 +51,6 @@ def run(graph: Graph, *words: object) -> Any:
     return TOOL.run(*words, graph=graph, say=lambda _: None)
 
 
-EXACT = [
-    "rosservice list", "rosservice list -n", "rosservice list /nope", "rosservice list /talker",
-    "rosservice type /set_bool", "rosservice uri /set_bool", "rosservice node /set_bool",
-    "rosservice args /set_bool", "rosservice info /set_bool", "rosservice find std_srvs/SetBool",
-    "rosservice find nope/Nope", "rosservice call /set_bool true", "rosservice call /set_bool 'data: false'",
-    "rosservice call /trigger", "rosservice call /srv_server/empty", "rosservice call /fails",
-    "rosservice call /returns_none", "rosservice call --wait /trigger",
-]  # fmt: skip
-
-
-@pytest.mark.parametrize("line", EXACT)
-def test_it_prints_what_the_real_one_does(graph: Graph, line: str) -> None:
-    text, status = printed(TOOL, graph, line)
-    assert (plain(text), status) == real(line)
-
-
 @pytest.mark.parametrize("line", ["rosservice type /nope", "rosservice info /nope", "rosservice call /nope"])
 def test_what_there_is_to_do_comes_after_what_the_real_one_prints(graph: Graph, line: str) -> None:
     text, status = printed(TOOL, graph, line)
@@ -77,35 +60,10 @@ def test_what_there_is_to_do_comes_after_what_the_real_one_prints(graph: Graph, 
     assert printed(TOOL, graph, line.replace("nope", "set_bol"))[0].endswith("did you mean /set_bool?\n")
 
 
-def test_too_many_arguments(graph: Graph) -> None:
-    text, status = printed(TOOL, graph, "rosservice call /set_bool 1 2 3")
-    wanted = REAL["rosservice call /set_bool 1 2 3"]
-    assert status == wanted[1]
-    told = "ERROR: Incompatible arguments to call service:\nToo many arguments"
-    assert text.startswith(told) and wanted[0].startswith(told)
-    assert text.partition("Provided")[2] == wanted[0].partition("Provided")[2]
-
-
 @pytest.mark.parametrize("line", ["rosservice", "rosservice -h"])
 def test_the_overview(line: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main(line.split()) == REAL[line][1]
     assert capsys.readouterr().out == REAL[line][0]
-
-
-def test_each_verb_has_help_with_an_example(capsys: pytest.CaptureFixture[str]) -> None:
-    for verb in TOOL.verbs:
-        assert cli.main(["rosservice", verb, "-h"]) == 0
-        said = capsys.readouterr().out
-        assert said.startswith(f"Usage: rosservice {verb}")
-        assert f"Example:\n  rosmini rosservice {verb}" in said
-
-
-def test_without_a_master(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    monkeypatch.setenv("ROS_MASTER_URI", f"http://127.0.0.1:{free_port()}")
-    text, status = read("errors_no_master")["rosservice list"]
-    for line in ("rosservice list", "rosservice type /x", "rosservice call /x", "rosservice find a/B"):
-        assert cli.main(line.split()) == status
-        assert capsys.readouterr().err.startswith(text)
 
 
 # -- data ------------------------------------------------------------------------------------------------------------
@@ -139,11 +97,6 @@ def test_a_header_is_stamped_where_that_is_asked_for(graph: Graph) -> None:
     run(graph, "call", "/plan", "start: {header: auto, pose: {position: {x: 1.5}}}")
     assert heard[0].start.pose.position.x == 1.5
     assert heard[0].start.header.stamp.to_nsec() == graph.scheduler.now_ns()
-
-
-def test_a_request_with_a_wrong_value_shows_the_definition(graph: Graph) -> None:
-    with pytest.raises(VerbError, match="srv file:\nbool data\n---\nbool success\nstring message\n"):
-        run(graph, "call", "/set_bool", "[hello]")
 
 
 def test_a_type_that_is_not_known_here(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> None:

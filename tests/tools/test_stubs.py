@@ -1,32 +1,13 @@
-"""`rosmini stubs`: what it writes, and that a type checker reads a script with it."""
+"""`rosmini stubs`: what it writes. `tests/gates/test_script_cells.py` has a type checker read scripts with it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from rosmini.tools.main import main
 from rosmini.tools.stubs import HEAD, aliases
-
-SCRIPT = """
-import actionlib
-import rospy
-from own_pkg.msg import Num
-from own_pkg.srv import Add
-from rospy.exceptions import ROSInterruptException
-from std_msgs.msg import String
-
-def heard(message: String) -> None:
-    rospy.loginfo(message.data.upper())
-
-rospy.init_node("listener")
-rospy.Subscriber("chatter", String, heard)
-number = Num(num=3)
-number.header.frame_id = "map"
-rospy.spin()
-"""
 
 
 @pytest.fixture
@@ -42,21 +23,6 @@ def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(package.parent))
     monkeypatch.chdir(tmp_path)
     return tmp_path
-
-
-def test_a_type_checker_reads_a_script(
-    workspace: Path, capsys: pytest.CaptureFixture[str], mypy: Callable[[list[str]], tuple[str, str, int]]
-) -> None:
-    assert main(["stubs"]) == 0
-    assert "up to date in typings" in capsys.readouterr().out
-    (workspace / "right.py").write_text(SCRIPT, encoding="utf-8")
-    (workspace / "wrong.py").write_text(SCRIPT.replace("Num(num=3)", "Num(nun=3)"), encoding="utf-8")
-    (workspace / "mypy.ini").write_text("[mypy]\nmypy_path = typings\n", encoding="utf-8")
-    found, complaints, _ = mypy(["--cache-dir", "cache", "--follow-imports", "silent", "right.py", "wrong.py"])
-    problems = [line for line in found.splitlines() if "error:" in line]
-    assert problems, found + complaints
-    assert all(line.startswith("wrong.py:") for line in problems), found
-    assert any("nun" in line for line in problems)
 
 
 def test_it_is_written_once(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -136,6 +136,7 @@ def test_a_result_in_python_holds_no_node() -> None:
         assert set(graph.nodes) == before
 
 
+@pytest.mark.nightly
 def test_gz_acts_on_a_server_in_another_process(env: dict[str, str], tmp_path: Path) -> None:
     box = tmp_path / "box.sdf"
     box.write_text(

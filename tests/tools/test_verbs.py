@@ -13,7 +13,7 @@ from rosmini.core.errors import UsageError
 from rosmini.core.time import Time
 from rosmini.core.verbs import Tool, VerbError
 from rosmini.msgs.std_msgs.msg import String
-from rosmini.ros.bag import Bag, ROSBagException
+from rosmini.ros.bag import Bag
 from rosmini.sim.verbs.world import TOOL as WORLD
 from rosmini.tools.rosbag import TOOL as ROSBAG
 
@@ -129,31 +129,6 @@ def test_the_results_of_rosbag_have_data(tmp_path: Path, monkeypatch: pytest.Mon
     assert (done.status, [path.name for path, _ in vars(done)["bags"]]) == (1, ["t.bag"])
     assert done.complaints == ("ERROR reading none.bag: [Errno 2] No such file or directory: 'none.bag'",)
     assert vars(WORLD.run("check", "arena", "none.world"))["sound"][0].file == "arena"
-
-
-def test_record_and_play_go_on_with_the_graph_and_return_handles(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    with Graph() as graph:
-        recording = vars(ROSBAG.run("record", "-q", "-O", "trip", "/chatter", graph=graph))["handle"]
-        publisher = graph.node("talker").publisher("chatter", String, queue_size=5)
-        publisher.wait_for_subscribers()
-        for word in ("one", "two"):
-            publisher.publish(word)
-            graph.run(0.5)
-        assert recording.poll() is None
-        recording.terminate()
-        assert recording.wait() == 0
-    with Graph() as graph:
-        heard: list[str] = []
-        graph.node("ear").subscriber("chatter", String, lambda message: heard.append(message.data))
-        playing = vars(ROSBAG.run("play", "-q", "trip.bag", graph=graph))["handle"]
-        assert playing.wait() == 0
-        assert heard == ["one", "two"]
-        with pytest.raises(ROSBagException, match=r"none\.bag: No such file"):
-            ROSBAG.run("play", "none.bag", graph=graph)
-        assert set(graph.nodes) == {"/rosout", "/ear"}
 
 
 class Printer:
