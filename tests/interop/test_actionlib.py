@@ -14,6 +14,7 @@ import pytest
 from rosmini.core.graph.graph import Graph
 from rosmini.ros.scripts import ScriptSpec
 
+from ..conftest import nightly
 from .test_rospy_api import differences, run_ours, run_real
 
 PEER = Path(__file__).with_name("actionlib_peer.py")
@@ -29,7 +30,7 @@ DIFFERENT: dict[tuple[str, ...], tuple[Any, Any]] = {}
 
 
 @pytest.mark.ros
-@pytest.mark.parametrize("simulated", [True, False], ids=["simulated", "wall"])
+@pytest.mark.parametrize("simulated", [True, *nightly(False)])
 def test_ours_does_what_actionlib_does(real: dict[str, Any], simulated: bool) -> None:
     assert len(real["client"]) == 72
     assert len(real["server"]) == 54
@@ -41,7 +42,7 @@ SERVER_PEER = Path(__file__).with_name("actionlib_server_peer.py")
 
 
 @pytest.mark.ros
-@pytest.mark.parametrize("simulated", [True, False], ids=["simulated", "wall"])
+@pytest.mark.parametrize("simulated", [True, *nightly(False)])
 def test_cancellations_and_the_list_of_goals_are_those_of_actionlib(master: dict[str, str], simulated: bool) -> None:
     real = json.loads(run_real(master, [str(SERVER_PEER)])[0].splitlines()[-1])
     assert len([name for name in real if name.startswith("cancel ")]) == 25

@@ -14,6 +14,7 @@ from rosmini.core.graph.graph import Graph
 from rosmini.ros import rospy
 from rosmini.ros.scripts import ScriptSpec, run_scripts
 
+from ..conftest import nightly
 from ..processes import run
 from .conftest import SYSTEM_PYTHON, need_ros, rosmaster
 
@@ -43,7 +44,7 @@ def users_lines(text: str) -> list[str]:
 
 
 @pytest.mark.ros
-@pytest.mark.parametrize("simulated", [True, False], ids=["simulated", "wall"])
+@pytest.mark.parametrize("simulated", [True, *nightly(False)])
 def test_loggers_levels_and_files(real: tuple[str, str, str], simulated: bool, tmp_path: Path) -> None:
     graph = Graph(simulated=simulated, strict=False, log_dir=tmp_path)
     graph.notebook = False  # nbval has imported ipykernel into this process

@@ -14,6 +14,7 @@ import pytest
 from rosmini.core.graph.graph import Graph
 from rosmini.ros.scripts import ScriptSpec
 
+from ..conftest import nightly
 from .conftest import need_ros
 from .test_rospy_api import differences, run_ours, run_real
 
@@ -27,7 +28,7 @@ def real(master: dict[str, str]) -> dict[str, Any]:
 
 
 @pytest.mark.ros
-@pytest.mark.parametrize("simulated", [True, False], ids=["simulated", "wall"])
+@pytest.mark.parametrize("simulated", [True, *nightly(False)])
 def test_ours_does_what_message_filters_does(real: dict[str, Any], simulated: bool) -> None:
     assert min(real["sets"]) > 500
     assert all(real["jumps"].values())

@@ -15,6 +15,7 @@ from rosmini.core.tf import TransformListener
 from rosmini.msgs.sensor_msgs.msg import JointState
 from rosmini.sim.urdf.xacro import expand
 
+from ..conftest import nightly
 from ..processes import run, start
 from .conftest import SYSTEM_PYTHON, need_ros, rosmaster
 
@@ -78,7 +79,7 @@ def ours(name):
         }
 
 
-@pytest.mark.parametrize("name", sorted(CASES))
+@pytest.mark.parametrize("name", ["arm", *nightly("waffle")])
 def test_the_same_transforms(master, name):
     proxy, env = master
     expected = ours(name)

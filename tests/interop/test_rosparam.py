@@ -13,6 +13,7 @@ from rosmini.core.rosparam import ParamClient
 from rosmini.ros import rospy
 from rosmini.ros.scripts import ScriptSpec, run_scripts
 
+from ..conftest import nightly
 from ..processes import run
 from .conftest import SYSTEM_PYTHON
 
@@ -46,7 +47,7 @@ def test_files_go_in_and_come_out_as_with_the_real_tool(master: dict[str, str], 
 
 
 @pytest.mark.ros
-@pytest.mark.parametrize("simulated", [True, False], ids=["simulated", "wall"])
+@pytest.mark.parametrize("simulated", [True, *nightly(False)])
 def test_the_module_does_what_the_real_one_does(master: dict[str, str], simulated: bool) -> None:
     theirs = json.loads(real(master, SYSTEM_PYTHON, str(PEER)).splitlines()[-1])
     graph = Graph(simulated=simulated, strict=False)

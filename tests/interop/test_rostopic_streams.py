@@ -1,10 +1,8 @@
-"""`rosmini rostopic` in a terminal, on the wire: it hears real publishers, and real subscribers hear it."""
+"""`rosmini rostopic echo` beside the real one, on real publishers; `wire/test_our_tools.py` has the other verbs."""
 
 from __future__ import annotations
 
 import re
-import signal
-import subprocess
 import sys
 import xmlrpc.client
 from collections.abc import Iterator
@@ -81,59 +79,6 @@ def test_it_echoes_what_the_real_one_does(tools: Tools, words: str) -> None:
 def unnumbered(text: str) -> str:
     """The text without ``header.seq``: rospy numbers a latched message anew for each subscriber."""
     return re.sub(r"^(  seq: +|[1-9]\d*,)\d+", r"\1N", text, flags=re.MULTILINE)
-
-
-@pytest.mark.parametrize(
-    ("verb", "form"),
-    [
-        ("hz", r"average rate: [\d.]+\n\tmin: [\d.]+s max: [\d.]+s std dev: [\d.]+s window: \d+\n"),
-        ("bw", r"average: [\d.]+K?B/s\n\tmean: 33.00B min: 33.00B max: 33.00B window: \d+\n"),
-    ],
-)
-def test_it_measures_real_publishers(graph: dict[str, str], verb: str, form: str) -> None:
-    env = {**graph, "PYTHONUNBUFFERED": "1"}
-    with start(tool(verb, "/chatter"), env=env, stdout=subprocess.PIPE) as ours:
-        assert ours.stdout.readline() == "subscribed to [/chatter]\n"
-        lines = (line for line in ours.stdout if line != "no new messages\n")
-        assert re.fullmatch(form, next(lines) + next(lines))
-
-
-def test_a_real_subscriber_hears_ours(graph: dict[str, str]) -> None:
-    pipes = {"stdout": subprocess.PIPE, "env": graph}
-    words = "-r", "10", "/cmd", "geometry_msgs/Twist", "{linear: {x: 0.25}}"
-    with (
-        start(tool("pub", *words), env=graph) as ours,
-        start(["rostopic", "echo", "-n", "2", "/cmd/linear/x"], **pipes) as real,
-    ):
-        assert real.communicate()[0] == "0.25\n---\n" * 2
-        ours.send_signal(signal.SIGTERM)
-        assert ours.wait() == 0
-    assert "/cmd" not in dict(ask(graph, "getSystemState")[0])
-
-
-def test_ours_hears_a_real_publisher_that_comes_later(graph: dict[str, str]) -> None:
-    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "env": graph}
-    with (
-        start(tool("echo", "-n", "1", "/later/data"), **pipes) as ours,
-        start(["rostopic", "pub", "-r", "10", "/later", "std_msgs/String", "here"], env=graph),
-    ):
-        out, err = ours.communicate()
-    assert out == '"here"\n---\n'
-    assert ours.returncode == 0, err
-
-
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_ends_it_and_nothing_is_left_at_the_master(graph: dict[str, str], number: signal.Signals) -> None:
-    def subscribers() -> list[str]:
-        return list(dict(ask(graph, "getSystemState")[1]).get("/odom", []))
-
-    with start(tool("echo", "/odom"), env=graph) as ours:
-        wait_until(subscribers, "subscription", ours)
-        (name,) = subscribers()
-        assert re.fullmatch(rf"/rostopic_{ours.pid}_\d+", name)
-        ours.send_signal(number)
-        assert ours.wait() == 0
-    assert name not in str(ask(graph, "getSystemState"))
 
 
 def test_it_ends_with_what_reads_its_output(graph: dict[str, str]) -> None:

@@ -55,6 +55,7 @@ def package(monkeypatch: pytest.MonkeyPatch) -> Iterator[NotebookPackage]:
     made.close()
 
 
+@pytest.mark.nightly
 def test_real_catkin_builds_it_and_real_roslaunch_runs_it(
     package: NotebookPackage, tmp_path: Path, master: dict[str, str]
 ) -> None:

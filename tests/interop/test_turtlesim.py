@@ -54,6 +54,7 @@ def environment(modules: str, tmp_path: Path) -> Iterator[dict[str, str]]:
             yield found
 
 
+@pytest.mark.nightly
 def test_real_rospy_drives_our_turtle(environment: dict[str, str]) -> None:
     def script(package: str, name: str, typed: str) -> str:
         path = next((PACKAGES / package).glob(f"*/{name}"))

@@ -1,4 +1,4 @@
-"""Three computers, one Master: a teleop on the first drives a simulator on each of the others."""
+"""Three computers, one Master: a teleop on the first drives a turtle there, and one on another."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ import os
 import re
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pytest
 
 from ...processes import run, wait_until
-from ..conftest import SYSTEM_PYTHON, need_ros
+from ..conftest import need_ros
 from .harness import ROSMINI, Stage
 from .hosts import three_hosts
 
@@ -23,10 +23,6 @@ if TYPE_CHECKING:
     from .hosts import Host, Hosts
 
 pytestmark = pytest.mark.ros
-
-ODOMETRY, FAR = "nav_msgs/Odometry", 0.05
-TELEOP = Path(__file__).parents[3] / "assets/ros/turtlebot3_teleop/nodes/turtlebot3_teleop_key"
-TELEOPS = {"ours": [*ROSMINI, "rosrun", "turtlebot3_teleop", "turtlebot3_teleop_key"], "real": [SYSTEM_PYTHON, TELEOP]}
 
 
 CHAPTER = Path(__file__).parents[3] / "notebooks/5_turtlesim/40_many_machines.ipynb"
@@ -69,51 +65,6 @@ def ask(site: Site, host: Host, *words: str) -> tuple[str, str]:
 def watcher(site: Site, hosts: Hosts) -> Peer:
     """A node on the first host, which sees all robots, and through which the tests ask the Master."""
     return site.peer("ours", "watcher", within=hosts.a.within).ready()
-
-
-def simulator(site: Site, host: Host, name: str) -> Child:
-    """Start a simulator on a host: its topics in a namespace of its own, but for the commands that all share."""
-    words = [*ROSMINI, "rosrun", "rosmini_sim", "simulator", f"__name:={name}", f"__ns:=/{name}"]
-    words += [f"/{name}/cmd_vel:=/cmd_vel", "_world:=room", "_noise:=0"]
-    child: Child = site.start(name, words, {"ROS_IP": host.address}, within=host.within)
-    return child
-
-
-def published(watcher: Peer) -> set[str]:
-    """Return the topics that somebody publishes."""
-    return {topic for topic, _ in watcher.ask("state", "getSystemState")[2][0]}
-
-
-def x_of(watcher: Peer, topic: str) -> Any:
-    """Return the position on the newest message of a topic with odometry."""
-    watcher.ask("forget", topic)
-    return watcher.ask("hear", topic)[-1]
-
-
-def test_one_teleop_drives_two_simulators_on_two_hosts(site: Site, hosts: Hosts, watcher: Peer) -> None:
-    names = {"second": hosts.b, "third": hosts.c}
-    children = [simulator(site, host, name) for name, host in names.items()]
-    topics = [f"/{name}/{topic}" for name in names for topic in ("odom", "base_pose_ground_truth")]
-    wait_until(lambda: set(topics) <= published(watcher), "two simulators")
-    for topic in topics:
-        watcher.ask("subscribe", topic, ODOMETRY, what="x", queue_size=1)
-    before = {topic: x_of(watcher, topic) for topic in topics}
-    for name, host in names.items():
-        uri = watcher.ask("state", "lookupNode", f"/{name}/{name}")[2]
-        assert uri.startswith(f"http://{host.address}:")
-    env = {"ROS_IP": hosts.a.address, "TURTLEBOT3_MODEL": "burger"}
-    teleop: Child = site.start("teleop", TELEOPS[site.kind], env, within=hosts.a.within)
-    for speed in range(1, 11):
-        teleop.process.stdin.write("w")
-        teleop.process.stdin.flush()
-        teleop.wait_for(rf"linear vel {speed / 100}\t")
-    for topic in topics:
-        while x_of(watcher, topic) < before[topic] + FAR:
-            pass
-    drivers = dict(watcher.ask("state", "getSystemState")[2][0])["/cmd_vel"]
-    assert drivers == ["/turtlebot3_teleop"]
-    for child in (*children, teleop):
-        child.interrupt()
 
 
 def plain(text: str) -> str:

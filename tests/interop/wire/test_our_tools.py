@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pytest
 import yaml
 
-from ...processes import wait_until
 from ..conftest import SYSTEM_PYTHON
 from .harness import ROSMINI
 
@@ -94,23 +93,6 @@ rospy.spin()
 """
 
 
-def test_our_rosnode_kills_and_cleans_up(core: Stage, busy: Peers) -> None:
-    for kind in ("ours", "real"):
-        victim = core.peer(kind, f"victim_of_ours_{kind}").ready()
-        assert core.our_tool("rosnode", "kill", victim.node) == f"killing {victim.node}\nkilled\n"
-        victim.process.stdin.close()
-        assert victim.ended() == 0
-        wait_until(lambda name=victim.node: name not in core.nodes(), "unregistering")
-        dead = core.peer(kind, f"dead_of_ours_{kind}").ready()
-        dead.kill()
-        cleanup = core.start("cleanup", [*ROSMINI, "rosnode", "cleanup"])
-        cleanup.wait_for("Please type y or n to continue")
-        cleanup.process.stdin.write("y\n")
-        cleanup.process.stdin.flush()
-        assert cleanup.ended() == 0
-        assert dead.node not in core.nodes()
-
-
 def test_our_rosbag_records_both(core: Stage, busy: Peers) -> None:
     bag = core.home / "ours_of_both.bag"
     topics = [f"{peer.node}/{name}" for peer in busy for name in ("count", "latched")]
@@ -125,32 +107,3 @@ def test_our_rosbag_records_both(core: Stage, busy: Peers) -> None:
     assert all(found[f"{peer.node}/latched"]["messages"] == 1 for peer in busy)
     assert all(found[f"{peer.node}/count"]["messages"] >= 3 for peer in busy)
     assert found["/theirs/latched"]["type"] == "std_msgs/String"
-
-
-def test_our_rosbag_play_drives_the_clock_of_both(core: Stage) -> None:
-    """Last here: from now on nodes of this Master live on /clock."""
-    core.master("setParam", "/use_sim_time", True)
-    file = core.home / "clock.bag"
-    core.tool(SYSTEM_PYTHON, "-c", BAG, file)
-    peers: list[Any] = [core.peer(kind, f"timed_{kind}").ready() for kind in ("ours", "real")]
-    for peer in peers:
-        peer.ask("subscribe", "/bagged", "std_msgs/Int32")
-    core.wait_for("/clock", "subscribers", *(peer.node for peer in peers))
-    words = [*ROSMINI, "rosrun", "rosbag", "play", "--clock", "--wait-for-subscribers", "-r", "20", file]
-    play = core.play(words, "/bagged", peers)
-    for peer in peers:
-        assert [message["data"] for message in peer.ask("hear", "/bagged", 3)] == [1, 2, 3]
-    assert play.ended() == 0
-    for peer in peers:
-        assert 1000 <= peer.ask("now") <= 1003
-    core.master("deleteParam", "/use_sim_time")
-
-
-BAG = """
-import sys, rosbag, rospy
-from std_msgs.msg import Int32
-with rosbag.Bag(sys.argv[1], "w") as bag:
-    bag.write("/gate", Int32(0), rospy.Time(1000))
-    for number in (1, 2, 3):
-        bag.write("/bagged", Int32(number), rospy.Time(1000 + number - 1))
-"""
