@@ -216,7 +216,9 @@ def test_a_publisher_that_shows_no_header_is_given_up(
         with publishing(graph, None):
             until(graph, lambda: len(delays) == 10, "ten attempts")
         graph.nodes["/victim"].shutdown()
-    assert capsys.readouterr().err.count("does not answer within") == 1
+    # On a busy machine a sound one may take longer than that, too.
+    told = [line for line in capsys.readouterr().err.splitlines() if "does not answer within" in line]
+    assert len([line for line in told if f"publishes {TOPIC} " in line]) == 1
 
 
 def test_a_publisher_whose_slave_api_hangs_is_told(
