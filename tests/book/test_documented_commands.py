@@ -136,7 +136,6 @@ GRAPHS: dict[str, tuple[str, ...]] = {
     "frames": (ROBOT, SHELF),
     "maps": (FILES,),
     "turtlebot3": (ROBOT,),
-    "publish_subscribe": (ROBOT, TALKER, RECORDED),
 }
 """What runs and which files there are, by page, when the commands of a box are typed."""
 
@@ -176,8 +175,6 @@ SKIPPED = {
     "rosmini rosrun turtlesim_cleaner move.py": BY_HAND,
     "rosrun actionlib_tools axclient.py /drive": ROBOTS_OWN,
     "rosrun actionlib_tools axserver.py /drive my_robot/DriveAction": ROBOTS_OWN,
-    "rosrun topic_tools drop /scan 1 2": ROBOTS_OWN,
-    "rosrun topic_tools throttle messages /scan 1.0": ROBOTS_OWN,
 }
 
 

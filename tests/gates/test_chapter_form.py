@@ -98,7 +98,6 @@ TO_REWRITE: dict[str, set[str]] = {
     "explore_lite": {"private API"},
     "many_turtlebots": {"columns", "hints", "lines", "private API"},
     "the_wire": {"hints", "lines", "private API"},
-    "publish_subscribe": {"hints", "lines", "mentions", "private API", "time"},
 }
 
 

@@ -1,17 +1,149 @@
-"""Checks of the exercises in the chapter Publish and subscribe."""
+"""Checks of the exercises in the chapter Publish and subscribe: nodes in the middle, and a service of callbacks."""
 
 from __future__ import annotations
 
 from contextlib import redirect_stdout
 from io import StringIO
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from rosmini.book.checks import exercise, expect, expect_heard, expect_node, expect_type
-from rosmini.core.graph import Graph
-from rosmini.msgs.std_msgs.msg import Float32, Int32, String
+from rosmini.book.checks import Script, exercise, expect
+from rosmini.book.trials import Trial
+from rosmini.msgs.sensor_msgs.msg import LaserScan
+from rosmini.msgs.std_msgs.msg import Float32
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
+COURIER = """
+import rospy
+from geometry_msgs.msg import Twist
+from std_msgs.msg import Float32
+
+def on_order(order):
+    command = Twist()
+    command.linear.x = 0.2
+    end = rospy.Time.now() + rospy.Duration(order.data / 0.2)
+    while rospy.Time.now() < end:
+        cmd_vel.publish(command)
+        rospy.sleep(0.1)
+
+rospy.init_node("courier")
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+rospy.Subscriber("order", Float32, on_order)
+rospy.spin()
+"""
+
+TURN = """
+import rospy
+from geometry_msgs.msg import Twist
+from std_msgs.msg import Float32
+
+def on_alarm(distance):
+    global until
+    until = rospy.Time.now() + rospy.Duration(3.1)
+
+def drive(event):
+    command = Twist()
+    if rospy.Time.now() < until:
+        command.angular.z = 1.0
+    else:
+        command.linear.x = 0.2
+    cmd_vel.publish(command)
+
+rospy.init_node("turner")
+until = rospy.Time()
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+rospy.Subscriber("alarm", Float32, on_alarm)
+rospy.Timer(rospy.Duration(0.1), drive)
+rospy.spin()
+"""
+
+
+# ---- history: the last three orders ----
+
+SENT = (0.9, 0.2, 0.3, 0.4)
+"""Distances of the orders [m]."""
+
+
+@exercise("history", praise="A latched topic keeps one message; your node keeps three.", gaps=2)
+def history(answer: Script) -> Any:
+    """A node sends the last messages to each new subscriber, and a late robot drives them."""
+    heard: dict[str, list[float]] = {"early": [], "late": [], "later": []}
+
+    def listen(trial: Trial, name: str) -> None:
+        trial.graph.node(name).subscriber("history", Float32, lambda order: heard[name].append(round(order.data, 3)))
+        trial.run(0.2)
+
+    with Trial("room") as trial:
+        trial.start(answer)
+        trial.run(0.5)
+        expect("/history" in trial.graph.nodes, "There is no node /history.", "do not change the name in init_node")
+        listen(trial, "early")
+        office = trial.graph.node("office")
+        order = office.publisher("order", Float32, queue_size=10)
+        trial.run(0.5)
+        expect(order.num_connections(), "Your node does not subscribe to /order.", "use rospy.Subscriber")
+        for number, distance in enumerate(SENT):
+            order.publish(distance)
+            trial.run(0.5)
+            if number == 1:
+                listen(trial, "late")
+        office.shutdown()
+        listen(trial, "later")
+        for name, right, when in (("late", SENT[:2], "the second"), ("later", SENT[1:], "the last")):
+            expect(
+                heard[name] == list(right),
+                f"A subscriber of /history that started after {when} of the orders {_listed(SENT)} received "
+                f"{_listed(heard[name]) or 'nothing'}, not {_listed(right)}.",
+                "keep the last three, and send them in peer_subscribe, the oldest first",
+            )
+        expect(
+            heard["early"] == [],
+            f"A subscriber that started before all orders received {_listed(heard['early'])} on /history.",
+            "send the orders only to the new subscriber: publish_to_peer",
+        )
+        trial.start(Script("courier.py", COURIER), "order:=history")
+        trial.run(6.0)
+        trial.expect_no_errors()
+        return trial.view()
+
+
+# ---- alarm: say it once ----
+
+LIMIT = 1.0
+"""A distance below this raises the alarm [m]."""
+
+
+@exercise("alarm", praise="Your node remembers one bit, and that is enough.")
+def alarm(answer: Script) -> Any:
+    """A filter passes on a distance when it falls below the limit, and a robot turns round."""
+    got: list[float] = []
+    right: list[float] = []
+    was_near = False
+
+    def watch(scan: Any) -> None:
+        nonlocal was_near
+        is_near = scan.ranges[0] < LIMIT
+        if is_near and not was_near:
+            right.append(round(scan.ranges[0], 3))
+        was_near = is_near
+
+    with Trial("room", "_x:=1.0") as trial:
+        witness = trial.graph.node("witness")
+        witness.subscriber("scan", LaserScan, watch)
+        witness.subscriber("alarm", Float32, lambda message: got.append(round(message.data, 3)))
+        trial.start(answer)
+        trial.start(Script("turn.py", TURN))
+        trial.run(40.0)
+        expect(got, "There was no alarm, although the robot came close to a wall.", "compare with 1.0, and publish")
+        expect(
+            got == right,
+            f"There were {len(got)} alarms ({_listed(got[:5])}); there should be {len(right)} ({_listed(right[:5])}).",
+            "publish if this scan is near and the one before was not",
+        )
+        trial.expect_no_errors()
+        return trial.view()
+
+
+def _listed(values: Any) -> str:
+    return ", ".join(f"{value:g}" for value in values)
 
 
 # ---- better_service: a better event service ----
@@ -75,129 +207,3 @@ def _examine(service: Any) -> None:
         f"After first had unsubscribed, the next event went to {[name for name, _ in got[3:]]}.",
         "remove the callback from its topic's list in unsubscribe",
     )
-
-
-# ---- arrived: predict ----
-
-
-def _worked_on(queue: int, count: int, gap: float, work: float) -> list[int]:
-    """Run a slow subscriber; return the numbers that it processes."""
-    arrived: list[int] = []
-    with Graph() as graph:
-        slow = graph.node("slow")
-
-        def look(message: Any) -> None:
-            arrived.append(message.data)
-            slow.sleep(work)
-
-        slow.subscriber("number", Int32, look, queue_size=queue)
-        numbers = graph.node("fast").publisher("number", Int32, queue_size=count)
-        numbers.wait_for_subscribers()
-        for value in range(1, count + 1):
-            numbers.publish(value)
-            graph.run(gap)
-        graph.run(count * work)
-    return arrived
-
-
-@exercise(
-    "arrived",
-    praise="A full queue drops its oldest message, and the subscriber continues with the oldest remaining one.",
-)
-def arrived(answer: Any) -> None:
-    """The messages that pass through a queue of three."""
-    expect_type(answer, (list, tuple), "arrived is", "a list", "[1, ...]")
-    right = _worked_on(3, 10, 1.0, 3.3)
-    for place, (found, expected) in enumerate(zip(answer, right, strict=False), start=1):
-        expect(
-            found == expected,
-            f"The first {place - 1} entries are right, but {found} is not processed next.",
-            "write down the queue each time the subscriber finishes a message",
-        )
-    expect(
-        len(answer) == len(right),
-        f"The entries are right, but {len(answer)} are too {'few' if len(answer) < len(right) else 'many'}.",
-        "messages in the queue at the end are still processed",
-    )
-
-
-# ---- start_history: the last few ----
-
-
-@exercise("start_history", praise="A latched topic keeps one message; your node keeps any number.")
-def start_history(answer: Any) -> None:
-    """A node that sends the last messages to each new subscriber."""
-    heard: dict[str, list[str]] = {"early": [], "late": [], "later": []}
-
-    def listen(name: str) -> None:
-        graph.node(name).subscriber("history", String, lambda message: heard[name].append(message.data))
-        graph.run(0.1)
-
-    with Graph() as graph:
-        answer(graph, 3)
-        expect_node(graph, "/history")
-        listen("early")
-        news = graph.node("reporter").publisher("news", String, queue_size=10)
-        graph.run(0.1)
-        expect_heard(news)
-        for word in ("one", "two"):
-            news.publish(word)
-        graph.run(0.1)
-        listen("late")
-        for word in ("three", "four", "five"):
-            news.publish(word)
-        graph.run(0.1)
-        graph.nodes["/reporter"].shutdown()
-        listen("later")
-    for name, right in (("late", ["one", "two"]), ("later", ["three", "four", "five"])):
-        when = "the second" if name == "late" else "the fifth"
-        expect(
-            heard[name] == right,
-            f"With a size of 3, a subscriber that started after {when} message received "
-            f"{heard[name] or 'nothing'}, not {right}.",
-            "keep the last messages, oldest first, and send them only to the new subscriber (publish_to)",
-        )
-    expect(
-        heard["early"] == [],
-        f"A subscriber that started before all messages received {heard['early']} on /history.",
-        "send the stored messages only to the new subscriber: publish_to",
-    )
-
-
-# ---- start_alarm: say it once ----
-
-
-@exercise("start_alarm", praise="Your node stores one bit about the past, and that is enough.")
-def start_alarm(answer: Any) -> None:
-    """A filter that passes on a message when the temperature rises above the limit."""
-    for limit, values, right in (
-        (30.0, (25.0, 30.0, 31.0, 32.0, 30.0, 33.0, 20.0), [31.0, 33.0]),
-        (10.0, (12.0, 11.0, 9.0, 10.5), [12.0, 10.5]),
-    ):
-        got = _alarms(answer, limit, values)
-        expect(
-            got == right,
-            f"With the limit {limit:g} and the temperatures {_listed(values)} it passed on "
-            f"{_listed(got) or 'nothing'}, "
-            f"not {_listed(right)}.",
-            "pass on a value above the limit if the previous one was not; exactly the limit is not above it",
-        )
-
-
-def _alarms(answer: Any, limit: float, values: Sequence[float]) -> list[float]:
-    got: list[float] = []
-    with Graph() as graph:
-        answer(graph, limit)
-        expect_node(graph, "/alarm")
-        graph.node("siren").subscriber("alarm", Float32, lambda message: got.append(message.data))
-        temperature = graph.node("roof").publisher("temperature", Float32, queue_size=10)
-        graph.run(0.1)
-        expect_heard(temperature)
-        for value in values:
-            temperature.publish(value)
-            graph.run(1.0)
-    return got
-
-
-def _listed(values: Sequence[float]) -> str:
-    return ", ".join(f"{value:g}" for value in values)

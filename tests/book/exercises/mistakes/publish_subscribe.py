@@ -1,16 +1,57 @@
-"""Wrong answers to the exercises of the chapter Publish and subscribe."""
+"""Wrong answers to the exercises of the chapter Publish and subscribe: right ones with a fault put in."""
 
 from __future__ import annotations
 
-from collections import deque
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from rosmini.core.graph import Graph
-from rosmini.msgs import message_class
+from rosmini.book.checks import Script
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+HISTORY = """
+from collections import deque
+import rospy
+from std_msgs.msg import Float32
+
+class Newcomers(rospy.SubscribeListener):
+    def peer_subscribe(self, topic, publish, publish_to_peer):
+        for order in list(orders):
+            publish_to_peer(order)
+
+rospy.init_node("history")
+orders = deque(maxlen=3)
+rospy.Publisher("history", Float32, Newcomers(), queue_size=10)
+rospy.Subscriber("order", Float32, orders.append)
+rospy.spin()
+"""
+
+ALARM = """
+import rospy
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import Float32
+
+was_near = False
+
+def on_scan(scan):
+    global was_near
+    is_near = scan.ranges[0] < 1.0
+    if is_near and not was_near:
+        alarm.publish(scan.ranges[0])
+    was_near = is_near
+
+rospy.init_node("alarm")
+alarm = rospy.Publisher("alarm", Float32, queue_size=10)
+rospy.Subscriber("scan", LaserScan, on_scan)
+rospy.spin()
+"""
+
+
+def wrong(name: str, right: str, old: str, new: str) -> Callable[[], Script]:
+    """Return what makes a script with one place of it changed."""
+    assert old in right
+    return lambda: Script(name, right.replace(old, new))
 
 
 # ---- better_service: a better event service ----
@@ -79,68 +120,26 @@ class _UnknownTopic(_Service):
                 callback(event)
 
 
-# ---- start_history: the last few ----
-
-
-def _history(*, limit: bool = True, to_all: bool = False, backwards: bool = False) -> Callable[[], Any]:
-    def start(graph: Graph, size: int) -> None:
-        node = graph.node("history")
-        text = message_class("std_msgs/String")
-        kept: deque[Any] = deque(maxlen=size if limit else None)
-
-        def newcomer(name: str) -> None:
-            for message in list(kept)[:: -1 if backwards else 1]:
-                if to_all:
-                    history.publish(message)
-                else:
-                    history.publish_to(name, message)
-
-        history = node.publisher("history", text, queue_size=None, on_connect=newcomer)
-        node.subscriber("news", text, kept.append)
-
-    return lambda: start
-
-
-def _latched(graph: Graph, _: int) -> None:
-    node = graph.node("history")
-    text = message_class("std_msgs/String")
-    history = node.publisher("history", text, latch=True)
-    node.subscriber("news", text, history.publish)
-
-
-# ---- start_alarm: say it once ----
-
-
-def _alarm(passes: Callable[[float | None, float, float], bool], name: str = "alarm") -> Callable[[], Any]:
-    def start(graph: Graph, limit: float) -> None:
-        node = graph.node(name)
-        number = message_class("std_msgs/Float32")
-        alarm = node.publisher("alarm", number, queue_size=10)
-        before: list[float | None] = [None]
-
-        def judge(message: Any) -> None:
-            if passes(before[0], message.data, limit):
-                alarm.publish(message)
-            before[0] = message.data
-
-        node.subscriber("temperature", number, judge)
-
-    return lambda: start
-
-
-def _only_once(graph: Graph, limit: float) -> None:
-    said: list[bool] = []
-
-    def once(before: float | None, now: float, limit: float) -> bool:
-        new = now > limit and (before is None or before <= limit) and not said
-        if new:
-            said.append(True)
-        return new
-
-    _alarm(once)()(graph, limit)
-
-
 MISTAKES = {
+    "history": [
+        wrong("history.py", HISTORY, "maxlen=3", "maxlen=4"),
+        wrong("history.py", HISTORY, "maxlen=3", "maxlen=1"),
+        wrong("history.py", HISTORY, "list(orders)", "reversed(orders)"),
+        wrong("history.py", HISTORY, "publish_to_peer(order)", "publish(order)"),
+        wrong("history.py", HISTORY, "Newcomers(), ", "latch=True, "),
+        wrong("history.py", HISTORY, '"order"', '"orders"'),
+        wrong("history.py", HISTORY, "orders.append)", "print)"),
+        wrong("history.py", HISTORY, 'init_node("history")', 'init_node("memory")'),
+    ],
+    "alarm": [
+        wrong("alarm.py", ALARM, "is_near and not was_near", "is_near"),
+        wrong("alarm.py", ALARM, "is_near and not was_near", "was_near and not is_near"),
+        wrong("alarm.py", ALARM, "< 1.0", "< 0.5"),
+        wrong("alarm.py", ALARM, "< 1.0", "> 1.0"),
+        wrong("alarm.py", ALARM, "    was_near = is_near", "    was_near = was_near or is_near"),
+        wrong("alarm.py", ALARM, "ranges[0] < 1.0", "range[0] < 1.0"),
+        wrong("alarm.py", ALARM, '"alarm", Float32', '"alarms", Float32'),
+    ],
     "better_service": [
         lambda: _Fails,
         lambda: _StopsAtTheFirst,
@@ -149,30 +148,5 @@ MISTAKES = {
         lambda: _OneTopic,
         lambda: _Deaf,
         lambda: _UnknownTopic,
-    ],
-    "arrived": [
-        lambda: list(range(1, 11)),
-        lambda: [1, 2, 3, 4],
-        lambda: [1, 4, 7, 10],
-        lambda: [2, 5, 8, 9, 10],
-        lambda: [1, 2, 5, 8],
-        lambda: [1, 8, 9, 10],
-    ],
-    "start_history": [
-        _history(limit=False),
-        _history(to_all=True),
-        _history(backwards=True),
-        lambda: _latched,
-        lambda: lambda graph, _: graph.node("history"),
-    ],
-    "start_alarm": [
-        _alarm(lambda _, now, limit: now > limit),
-        _alarm(lambda before, now, limit: before is not None and now > limit >= before),
-        _alarm(lambda before, now, limit: now >= limit and (before is None or before < limit)),
-        _alarm(lambda before, now, limit: now > limit and (before is None or before < limit)),
-        _alarm(lambda before, now, limit: now <= limit and before is not None and before > limit),
-        _alarm(lambda before, now, limit: now > limit and (before is None or before <= limit), name="filter"),
-        _alarm(lambda before, now, _: now > 30 and (before is None or before <= 30)),
-        lambda: _only_once,
     ],
 }
