@@ -84,8 +84,6 @@ def launch(plan: Plan, given: Values, packages: PackageIndex) -> int:
         port = port_number(given.port)
         os.environ["ROS_MASTER_URI"] = f"http://{addresses().master[0]}:{port}"
     where = addresses()
-    if given.pid_fn:
-        Path(given.pid_fn).expanduser().write_text(str(os.getpid()), encoding="utf-8")
     if given.wait_for_master:
         wait_for_master(where)
     run_id = asked(where, "getParam", "/run_id")
@@ -123,8 +121,7 @@ def run(plan: Plan, given: Values, packages: PackageIndex, where: Addresses, log
     log.say(f"... logging to {log.path}\nPress Ctrl-C to interrupt")
     for line in where.notes:
         log.complain(f"rosmini: {line}")
-    if not given.no_summary:
-        log.say(f"\n{plan.summary({'/rosdistro': 'noetic', '/rosversion': '1.16.0'})}\n")
+    log.say(f"\n{plan.summary({'/rosdistro': 'noetic', '/rosversion': '1.16.0'})}\n")
     master = None
     if asked(where, "getPid") is None:
         master = start_master(where, log, guard)
@@ -189,7 +186,7 @@ def run_nodes(plan: Plan, given: Values, packages: PackageIndex, log: Log, guard
 
     with connect() as graph:
         running = Launch(
-            plan, graph, maker(plan, graph, packages, log, guard, local=given.local_only),
+            plan, graph, maker(plan, graph, packages, log, guard),
             say=log.say, warn=log.complain, first=first,
             sigint_timeout=given.sigint_timeout, sigterm_timeout=given.sigterm_timeout,
         )  # fmt: skip
@@ -209,7 +206,7 @@ def run_nodes(plan: Plan, given: Values, packages: PackageIndex, log: Log, guard
 
 
 def maker(
-    plan: Plan, graph: Graph, packages: PackageIndex, log: Log, guard: Guard, *, local: bool
+    plan: Plan, graph: Graph, packages: PackageIndex, log: Log, guard: Guard
 ) -> Callable[[NodePlan, str], Running]:
     """Return a function that creates the handles of nodes as processes."""
     from rosmini.ros.launch.executables import program
@@ -217,7 +214,7 @@ def maker(
     from rosmini.ros.launch.running import Running, log_base, on_machine
 
     def make(node: NodePlan, name: str) -> Running:
-        if node.machine and not plan.machines[node.machine].is_local and not local:
+        if node.machine and not plan.machines[node.machine].is_local:
             raise RosminiError(on_machine(plan, node))
         found = program(node, packages, os.environ)
         base = log_base(log.folder, name)

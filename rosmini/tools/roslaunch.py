@@ -7,7 +7,7 @@ import socket
 import sys
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from rosmini.core.errors import UsageError
 from rosmini.core.names import is_remapping
@@ -43,7 +43,7 @@ DESCRIPTION = (
     "of them in one, in simulated time if you like. Ctrl-C ends them."
 )
 
-ASKING = ("node_args", "node_list", "find_node", "ros_args", "dump_params", "file_list", "check", "tree")
+ASKING = ("node_args", "node_list", "ros_args", "dump_params", "file_list", "check", "tree")
 """Options that only query and launch nothing."""
 
 
@@ -68,20 +68,15 @@ def parser() -> LaunchParser:
     made.flag("--files", dest="file_list", help="print the files that are read")
     made.add_option("--args", dest="node_args", metavar="NODE_NAME", help="print the command line of a node")
     made.flag("--nodes", dest="node_list", help="print the names of all nodes")
-    made.add_option("--find-node", dest="find_node", metavar="NODE_NAME", help="print the file that has a node")
     made.flag("--dump-params", dest="dump_params", help="print all parameters as YAML")
     made.flag("--ros-args", dest="ros_args", help="print the arguments of the launch file")
     made.flag("--check", help="read everything, and name all that is missing (not in ROS)")
     made.flag("--tree", help="print the plan: files, nodes, remappings, parameters (not in ROS)")
     made.flag("--screen", dest="force_screen", help="output of all nodes to the screen")
     made.flag("--log", dest="force_log", help="output of all nodes to log files")
-    made.flag("--required", dest="force_required", help="make all nodes required")
-    made.flag("--local", dest="local_only", help="do not mind nodes for other machines")
     made.flag("--wait", dest="wait_for_master", help="wait for a Master; do not start one")
-    made.flag("--no-summary", dest="no_summary", help="hide the summary")
     made.flag("--skip-log-check", "--disable-title", "-v", dest="ignored", help="accepted, and without effect here")
     made.add_option("-p", "--port", help="port of the Master, if one is started", metavar="PORT")
-    made.add_option("--pid", dest="pid_fn", metavar="FILE", help="write the number of this process to a file")
     for name, default in (("sigint", 15.0), ("sigterm", 2.0)):
         made.add_option(
             f"--{name}-timeout", type="float", default=default, metavar="S",
@@ -177,9 +172,9 @@ def options(words: Sequence[str]) -> tuple[Values, list[str]]:
         made.error("--sim-time, --wall-time, --duration and `+ SCRIPT` need --one-process")
     if min(given.sigint_timeout, given.sigterm_timeout) <= 0.0:
         made.error("--sigint-timeout and --sigterm-timeout are numbers of seconds above zero")
-    asked = [name for name in ("node_list", "find_node", "node_args", "ros_args") if getattr(given, name)]
+    asked = [name for name in ("node_list", "node_args", "ros_args") if getattr(given, name)]
     if len(asked) > 1:
-        made.error("only one of [--nodes, --find-node, --args --ros-args] may be specified")
+        made.error("only one of [--nodes, --args, --ros-args] may be specified")
     if not [word for word in given.words if not is_remapping(word)]:
         made.error("you must specify at least one input file")
     return given, nodes
@@ -257,8 +252,6 @@ def answer(given: Values, plan: Plan, packages: PackageIndex) -> Lines:
         text = " ".join([*shown, *prefix, *program(node, packages, os.environ).words, *node.words()])
     elif given.node_list:
         text = "\n".join(node.full_name for node in plan.all_nodes())
-    elif given.find_node:
-        text = plan.node(given.find_node).place.file
     elif given.ros_args:
         text = plan.ros_args()
     elif given.dump_params:
@@ -282,16 +275,12 @@ def check(plan: Plan, missing: Sequence[Missing]) -> Lines:
 
 
 def changed(plan: Plan, given: Values) -> Plan:
-    """Return the plan changed by --screen, --log and --required."""
+    """Return the plan changed by --screen and --log."""
     from dataclasses import replace
 
-    more: dict[str, Any] = {}
     if given.force_screen or given.force_log:
-        more["output"] = "screen" if given.force_screen else "log"
-    if given.force_required:
-        more["required"] = True
-        more["respawn"] = False
-    plan.nodes = [replace(node, **more) for node in plan.nodes] if more else plan.nodes
+        output = "screen" if given.force_screen else "log"
+        plan.nodes = [replace(node, output=output) for node in plan.nodes]
     return plan
 
 

@@ -304,19 +304,6 @@ def uri(given: Values, call: Call) -> Lines:
     return _known(services.uri_of(call.peers, name), name, call)
 
 
-def _node_parser() -> Parser:
-    return _parser("node /service", "Print the node that offers a service.", "node /set_bool")
-
-
-@TOOL.verb(
-    "print the node that offers a service", parser=_node_parser, only_asks=True, is_listed=False, takes="service"
-)
-def node(given: Values, call: Call) -> Lines:
-    """Return the node that offers a service."""
-    name = _one_service(_node_parser(), given)
-    return _known(services.node_of(call.peers, name), name, call)
-
-
 def _known(found: str | None, name: str, call: Call) -> Lines:
     if found is None:
         raise VerbError(f"Unknown service: {name}\n{services.what_next(call.peers, name)}")

@@ -76,7 +76,6 @@ def hz_parser() -> Parser:
     parser = _parser("hz", usage, "Measure how often messages come.", "-w 100 /scan")
     parser.add_option("--filter", metavar="EXPR", help="only messages m for which this is true: m.data > 3")
     parser.flag("--wall-time", dest="wall_time", help="by the clock on the wall, where /clock stands still")
-    parser.flag("--tcpnodelay", dest="tcpnodelay", help="accepted, as in ROS")
     return parser
 
 
@@ -152,9 +151,7 @@ class Delay(Result):
 def delay_parser() -> Parser:
     """Return the parser of ``rostopic delay``."""
     text = "Measure how old messages are when they come, by the stamps in their headers."
-    parser = _parser("delay", "[options] /topic", text, "/scan")
-    parser.flag("--tcpnodelay", dest="tcpnodelay", help="accepted, as in ROS")
-    return parser
+    return _parser("delay", "[options] /topic", text, "/scan")
 
 
 def delay(given: Values, call: Call) -> Delay:

@@ -8,18 +8,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rosmini.core.geometry.poses import Pose, transform_points
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
 from rosmini.navigation.costmap_2d.publisher import published_values
 from rosmini.sim.models import BURGER, RobotModel
-from rosmini.viz.figures import WIDTH, house_style, legend, legend_width
+from rosmini.viz.figures import WIDTH
 from rosmini.viz.map_colours import colours_of
-from rosmini.viz.map_pictures import STEADY, Cells, cells_image, draw_frame
+from rosmini.viz.map_pictures import Cells, Marks, cells_picture
 from rosmini.viz.rounding import fixed
 from rosmini.viz.style import LIGHT
-from rosmini.viz.view import Picture, ViewError, matplotlib_picture
-from rosmini.viz.world_drawing import TRAIL_WIDTH, draw_dots, draw_robot, draw_strokes, draw_trail
-from rosmini.viz.world_pictures import HEIGHT, LEFT, length_of, line_of, map_axes, pose_of, pose_text
+from rosmini.viz.view import Picture, ViewError
+from rosmini.viz.world_pictures import HEIGHT
 
 Floats = NDArray[np.float64]
 
@@ -67,26 +65,15 @@ def costmap_picture(
 
     """
     cells = cells_of(grid, window)
-    scene = _Scene(
-        pose=None if robot is None else pose_of(robot, "the robot's pose"),
-        outline=None if footprint is None else line_of(footprint, "the footprint"),
-        plan=None if plan is None else line_of(plan, "the plan"),
-        goal=None if goal is None else line_of([list(goal)], "the goal"),
-    )
-    said = _text(cells, scene)
-    with house_style():
-        handles = [*_swatches(cells, scheme), *scene.legend()]
-        corners = cells.corners()
-        (x0, y0), (x1, y1) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
-        figure, axes, scale = map_axes((x0, y0, x1, y1), size, legend_width(handles))
-        image = cells_image(figure, axes, Cells(published(cells.values), *cells[1:]), scheme)
-        draw_frame(axes, cells, scale)
-        scene.draw(axes, model, scale)
-        legend(figure, handles, LEFT)
-        return matplotlib_picture(
-            figure, text=f"{title or name}: {said}", alt=_alt(cells, scene, name), form="svg", caption=title,
-            under=image, steady=STEADY,
-        )  # fmt: skip
+    marks = Marks(
+        robot, plan, None if goal is None else [list(goal)], footprint=footprint, model=model,
+        words=("plan", "goal"), colours=("green", "green"), sizes=(9.0, 7.0),
+    )  # fmt: skip
+    origin = f"({fixed(cells.origin[0], 2)}, {fixed(cells.origin[1], 2)})"
+    return cells_picture(
+        cells, shares(cells.values), marks, _swatches(cells, scheme), origin=origin, title=title, size=size,
+        name=name, scheme=scheme, shown=published(cells.values),
+    )  # fmt: skip
 
 
 def cells_of(grid: Costmap2D, window: Sequence[int] | None = None) -> Cells:
@@ -122,53 +109,6 @@ def shares(costs: NDArray[np.uint8]) -> list[str]:
     return said
 
 
-class _Scene:
-    """The things drawn on top of the costs."""
-
-    def __init__(self, pose: Pose | None, outline: Floats | None, plan: Floats | None, goal: Floats | None) -> None:
-        self.pose, self.plan, self.goal = pose, plan, goal
-        self.outline = None if pose is None or outline is None or len(outline) < 3 else outline
-
-    def draw(self, axes: Any, model: RobotModel, scale: float) -> None:
-        if self.plan is not None:
-            draw_trail(axes, self.plan[:, :2], scale, colour="green")
-        if self.goal is not None:
-            draw_dots(axes, self.goal[:, :2], "green", 9.0)
-        if self.pose is not None:
-            if self.outline is None:
-                draw_robot(axes, model, self.pose, scale)
-                return
-            placed = transform_points(self.pose, self.outline[:, :2])
-            draw_strokes(axes, np.stack([placed, np.roll(placed, -1, axis=0)], axis=1), "page", 4.0)
-            draw_strokes(axes, np.stack([placed, np.roll(placed, -1, axis=0)], axis=1), "ink", 1.6)
-            nose = transform_points(self.pose, np.array([(0.0, 0.0), (self.outline[:, 0].max(), 0.0)]))
-            draw_strokes(axes, nose[None], "page", 4.0)
-            draw_strokes(axes, nose[None], "ink", 1.6)
-
-    def legend(self) -> list[Any]:
-        from matplotlib.lines import Line2D
-
-        handles: list[Any] = []
-        if self.plan is not None:
-            handles.append(Line2D([], [], color=LIGHT["green"], linewidth=TRAIL_WIDTH, label="plan"))
-        if self.goal is not None:
-            handles.append(Line2D([], [], color=LIGHT["green"], marker="o", markersize=7.0, linestyle="", label="goal"))
-        if self.outline is not None:
-            handles.append(Line2D([], [], color=LIGHT["ink"], linewidth=1.6, label="footprint"))
-        return handles
-
-    def said(self) -> list[str]:
-        lines = []
-        if self.plan is not None:
-            lines.append(f"plan: {fixed(length_of(self.plan), 2)} m")
-        if self.goal is not None:
-            lines.append(f"goal: ({fixed(self.goal[0, 0], 2)}, {fixed(self.goal[0, 1], 2)})")
-        if self.pose is not None:
-            outline = f", footprint of {len(self.outline)} points" if self.outline is not None else ""
-            lines.append(f"robot: pose {pose_text(self.pose)}{outline}")
-        return lines
-
-
 def _swatches(cells: Cells, scheme: str) -> list[Any]:
     """Return a legend patch for each kind of cost that occurs."""
     from matplotlib.patches import Patch
@@ -181,22 +121,3 @@ def _swatches(cells: Cells, scheme: str) -> list[Any]:
             face = "#{:02x}{:02x}{:02x}".format(*table[shown, :3].tolist())
             handles.append(Patch(facecolor=face, edgecolor=LIGHT["group-line"], label=name))
     return handles
-
-
-def _text(cells: Cells, scene: _Scene) -> str:
-    height, width = cells.values.shape
-    across, up = (fixed(n * cells.resolution, 2) for n in (width, height))
-    origin = f"({fixed(cells.origin[0], 2)}, {fixed(cells.origin[1], 2)})"
-    return "\n".join(
-        [
-            f"{width} x {height} cells of {cells.resolution:.4g} m, {across} x {up} m, origin {origin}",
-            ", ".join(shares(cells.values)),
-            *scene.said(),
-        ]
-    )
-
-
-def _alt(cells: Cells, scene: _Scene, name: str) -> str:
-    size = _text(cells, scene).split("\n")[0].replace(" x ", " by ")
-    rest = f" On it: {'; '.join(scene.said())}." if scene.said() else ""
-    return f"A {name} from above: {size}. Of its cells are {', '.join(shares(cells.values))}.{rest}"

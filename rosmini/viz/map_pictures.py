@@ -80,29 +80,97 @@ def map_picture(
     """
     if not isinstance(grid, GridMap):
         raise ViewError(f"a map must be a GridMap, not a {type(grid).__name__}: use load_map or GridMap.from_message")
-    pose = None if robot is None else pose_of(robot, "the robot's pose")
-    dots = None if points is None else line_of(points, "points")
-    line = None if path is None else line_of(path, "the path")
+    marks = Marks(robot, path, points, model=model)
     cells = Cells(grid.occupancy.view(np.uint8), grid.resolution, grid.origin)
-    said = _text(grid, pose, dots, line)
+    origin = pose_text(grid.origin)
+    return cells_picture(cells, shares(grid), marks, _swatches(grid), origin=origin, title=title, size=size)
+
+
+class Marks:
+    """A robot, its footprint, a line and dots that are drawn on a map or a costmap. Raises `ViewError`."""
+
+    def __init__(
+        self, robot: Sequence[float] | None, line: ArrayLike | None, dots: ArrayLike | None, *,
+        footprint: ArrayLike | None = None, model: RobotModel = BURGER, words: tuple[str, str] = ("path", "points"),
+        colours: tuple[str, str] = ("blue", "vermilion"), sizes: tuple[float, float] = (7.0, 6.0),
+    ) -> None:  # fmt: skip
+        self.pose = None if robot is None else pose_of(robot, "the robot's pose")
+        self.line = None if line is None else line_of(line, f"the {words[0]}")
+        self.dots = None if dots is None else line_of(dots, f"the {words[1]}")
+        self.model, self.words, self.colours, self.sizes = model, words, colours, sizes
+        outline = None if footprint is None else line_of(footprint, "the footprint")
+        self.outline = None if self.pose is None or outline is None or len(outline) < 3 else outline
+
+    def draw(self, axes: Axes, scale: float) -> None:
+        """Draw everything."""
+        if self.line is not None:
+            draw_trail(axes, self.line[:, :2], scale, colour=self.colours[0])
+        if self.dots is not None:
+            draw_dots(axes, self.dots[:, :2], self.colours[1], self.sizes[0])
+        if self.pose is None:
+            return
+        if self.outline is None:
+            draw_robot(axes, self.model, self.pose, scale)
+            return
+        placed = transform_points(self.pose, self.outline[:, :2])
+        edges = np.stack([placed, np.roll(placed, -1, axis=0)], axis=1)
+        nose = transform_points(self.pose, np.array([(0.0, 0.0), (self.outline[:, 0].max(), 0.0)]))
+        for strokes in (edges, nose[None]):
+            draw_strokes(axes, strokes, "page", 4.0)
+            draw_strokes(axes, strokes, "ink", 1.6)
+
+    def legend(self) -> list[Any]:
+        """Return the entries of the legend."""
+        from matplotlib.lines import Line2D
+
+        colours = [LIGHT[colour] for colour in self.colours]
+        handles: list[Any] = []
+        if self.line is not None:
+            handles.append(Line2D([], [], color=colours[0], linewidth=TRAIL_WIDTH, label=self.words[0]))
+        if self.dots is not None:
+            dot: dict[str, Any] = {"marker": "o", "markersize": self.sizes[1], "linestyle": ""}
+            handles.append(Line2D([], [], color=colours[1], label=self.words[1], **dot))
+        if self.outline is not None:
+            handles.append(Line2D([], [], color=LIGHT["ink"], linewidth=1.6, label="footprint"))
+        return handles
+
+    def lines(self) -> list[str]:
+        """Return a line of text for each."""
+        lines = []
+        if self.line is not None:
+            lines.append(f"{self.words[0]}: {fixed(length_of(self.line), 2)} m")
+        if self.dots is not None:
+            places = [f"({fixed(x, 2)}, {fixed(y, 2)})" for x, y in self.dots[:, :2]]
+            lines.append(f"{self.words[1]}: {', '.join(places) if len(places) <= MAX_LISTED else len(places)}")
+        if self.pose is not None:
+            outline = f", footprint of {len(self.outline)} points" if self.outline is not None else ""
+            lines.append(f"robot: pose {pose_text(self.pose)}{outline}")
+        return lines
+
+
+def cells_picture(
+    cells: Cells, shares: Sequence[str], marks: Marks, swatches: Sequence[Any], *, origin: str,
+    title: str | None, size: tuple[float, float], name: str = "map", scheme: str = "map", shown: Bytes | None = None,
+) -> Picture:  # fmt: skip
+    """Draw cells, or what is `shown` in their place, with marks on them. Raises `ViewError`."""
+    height, width = cells.values.shape
+    across, up = (fixed(n * cells.resolution, 2) for n in (width, height))
+    extent = f"{width} x {height} cells of {cells.resolution:.4g} m, {across} x {up} m, origin {origin}"
+    lines = marks.lines()
+    text = "\n".join([f"{title or name}: {extent}", ", ".join(shares), *lines])
+    rest = f" On it: {'; '.join(lines)}." if lines else ""
+    alt = f"A {name} from above: {extent.replace(' x ', ' by ')}. Of its cells are {', '.join(shares)}.{rest}"
     with house_style():
-        handles = _legend(grid, dots, line)
+        handles = [*swatches, *marks.legend()]
         corners = cells.corners()
         (x0, y0), (x1, y1) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
         figure, axes, scale = map_axes((x0, y0, x1, y1), size, legend_width(handles))
-        image = cells_image(figure, axes, cells, "map")
+        drawn = cells if shown is None else Cells(shown, cells.resolution, cells.origin)
+        image = cells_image(figure, axes, drawn, scheme)
         draw_frame(axes, cells, scale)
-        if line is not None:
-            draw_trail(axes, line[:, :2], scale)
-        if dots is not None:
-            draw_dots(axes, dots[:, :2], "vermilion", 7.0)
-        if pose is not None:
-            draw_robot(axes, model, pose, scale)
+        marks.draw(axes, scale)
         legend(figure, handles, LEFT)
-        return matplotlib_picture(
-            figure, text=f"{title or 'map'}: {said}", alt=_alt(grid, said), form="svg", caption=title, under=image,
-            steady=STEADY,
-        )  # fmt: skip
+        return matplotlib_picture(figure, text=text, alt=alt, form="svg", caption=title, under=image, steady=STEADY)
 
 
 def cells_image(figure: Figure, axes: Axes, cells: Cells, scheme: str) -> str:
@@ -138,8 +206,7 @@ def draw_frame(axes: Axes, cells: Cells, scale: float) -> None:
         draw_strokes(axes, np.array([[corners[0], end]]), colour, 3.0)
 
 
-def _legend(grid: GridMap, dots: Floats | None, line: Floats | None) -> list[Any]:
-    from matplotlib.lines import Line2D
+def _swatches(grid: GridMap) -> list[Any]:
     from matplotlib.patches import Patch
 
     handles: list[Any] = []
@@ -149,29 +216,7 @@ def _legend(grid: GridMap, dots: Floats | None, line: Floats | None) -> list[Any
             # pure black and pure white would follow the theme of the page
             face = f"#{min(max(red, 1), 254):02x}{min(max(green, 1), 254):02x}{min(max(blue, 1), 254):02x}"
             handles.append(Patch(facecolor=face, edgecolor=LIGHT["group-line"], label=name))
-    if line is not None:
-        handles.append(Line2D([], [], color=LIGHT["blue"], linewidth=TRAIL_WIDTH, label="path"))
-    if dots is not None:
-        marker = {"marker": "o", "markersize": 6.0, "linestyle": ""}
-        handles.append(Line2D([], [], color=LIGHT["vermilion"], label="points", **marker))  # type: ignore[arg-type]
     return handles
-
-
-def _text(grid: GridMap, robot: Pose | None, dots: Floats | None, line: Floats | None) -> str:
-    height, width = grid.occupancy.shape
-    across, up = (fixed(n * grid.resolution, 2) for n in (width, height))
-    lines = [
-        f"{width} x {height} cells of {grid.resolution:.4g} m, {across} x {up} m, origin {pose_text(grid.origin)}",
-        ", ".join(shares(grid)),
-    ]
-    if line is not None:
-        lines.append(f"path: {fixed(length_of(line), 2)} m")
-    if dots is not None:
-        places = [f"({fixed(x, 2)}, {fixed(y, 2)})" for x, y in dots[:, :2]]
-        lines.append(f"points: {', '.join(places) if len(places) <= MAX_LISTED else len(places)}")
-    if robot is not None:
-        lines.append(f"robot: pose {pose_text(robot)}")
-    return "\n".join(lines)
 
 
 def shares(grid: GridMap) -> list[str]:
@@ -184,9 +229,3 @@ def shares(grid: GridMap) -> list[str]:
     counts["between"] = grid.occupancy.size - sum(counts.values())
     named = ((name, count) for name, count in counts.items() if count or name != "between")
     return [f"{name} {fixed(100 * count / grid.occupancy.size, 1)} %" for name, count in named]
-
-
-def _alt(grid: GridMap, said: str) -> str:
-    lines = said.split("\n")
-    rest = f" On it: {'; '.join(lines[2:])}." if lines[2:] else ""
-    return f"A map from above: {lines[0].replace(' x ', ' by ')}. Of its cells are {', '.join(shares(grid))}.{rest}"

@@ -62,7 +62,6 @@ def environment(tmp_path: Path) -> dict[str, str]:
         ["--dump-params", "speaking", "demo.launch", "name:=tb3"],
         ["--ros-args", "speaking", "demo.launch"],
         ["--args", "/robot1/program", "speaking", "demo.launch", "name:=tb3"],
-        ["--find-node", "/robot1/relay", "speaking", "demo.launch", "name:=tb3"],
     ],
     ids=lambda words: words[0],
 )

@@ -49,7 +49,7 @@ def server(master: dict[str, str]) -> Iterator[dict[str, str]]:
 
 SAME = [
     "list", "list -n", "list /robot1", "list /robot1/info", "list /nope", "type /frames", "type robot1/info",
-    "uri /frames", "node /frames", "args /robot1/info", "args /server/empty", "info /robot1/info",
+    "uri /frames", "args /robot1/info", "args /server/empty", "info /robot1/info",
     "find tf2_msgs/FrameGraph", "find nope/Nope", "call /frames", "call /server/empty",
     "call -v /robot1/info 'camera_info: {width: 3}'", "call --wait /frames",
     "call /server/set_logger_level rosout warn", "call /robot1/info", "list a b", "find", "info", "type", "bogus",

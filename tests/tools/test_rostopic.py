@@ -47,8 +47,8 @@ def test_the_overview(line: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert (capsys.readouterr().out, status) == REAL[line]
 
 
-ABSENT = {"-b", "--bag", "-a", "--all", "--host", "-f", "--file"}
-"""Options of the real tool that this one has not: those on bags, hosts and files."""
+ABSENT = {"-b", "--bag", "-a", "--all", "--host", "-f", "--file", "--tcpnodelay"}
+"""Options of the real tool that this one has not: those on bags, hosts, files and sockets."""
 
 
 def test_each_verb_has_the_options_of_the_real_one_and_an_example(capsys: pytest.CaptureFixture[str]) -> None:
