@@ -167,7 +167,6 @@ def rollout(
     goal: Distances,
     front: Distances,
     shift: float,
-    scored: Ints,
     points: Floats,
     raw: Floats,
     where: Ints,
@@ -182,8 +181,7 @@ def rollout(
     `raw` (n, 5) receives first the largest cost under the footprint, scaled by `scales[n]`, or a negative number from
     `footprint_cost`; then the distances [cells] at the last point: in `front` and in `path`, both measured `shift` [m]
     ahead of the robot, in `path` and in `goal`, or one of the negative scores above. `where` (n, 5) receives the first
-    point at which the number became negative, or -1. If `scored[n]` is not negative, the distances are those of that
-    point alone.
+    point at which the number became negative, or -1.
     """
     for n in range(targets.shape[0]):
         dt = sim_time / max(steps[n], 1)
@@ -214,12 +212,11 @@ def rollout(
                     under, where[n, 0] = float(cost), i
                 else:
                     under = max(under, float(max(cost, int(costs[cell]))))
-            if scored[n] < 0 or i == scored[n]:
-                nose = cell_of(x + shift * cos, y + shift * sin, origin_x, origin_y, resolution, width, height)
-                before = looked_up_distance(front, nose, False, before, n, 1, i, where)
-                beside = looked_up_distance(path, nose, False, beside, n, 2, i, where)
-                off = looked_up_distance(path, cell, True, off, n, 3, i, where)
-                ahead = looked_up_distance(goal, cell, True, ahead, n, 4, i, where)
+            nose = cell_of(x + shift * cos, y + shift * sin, origin_x, origin_y, resolution, width, height)
+            before = looked_up_distance(front, nose, False, before, n, 1, i, where)
+            beside = looked_up_distance(path, nose, False, beside, n, 2, i, where)
+            off = looked_up_distance(path, cell, True, off, n, 3, i, where)
+            ahead = looked_up_distance(goal, cell, True, ahead, n, 4, i, where)
             vx = approached(vx, targets[n, 0], limits[0] * dt)
             vy = approached(vy, targets[n, 1], limits[1] * dt)
             w = approached(w, targets[n, 2], limits[2] * dt)
@@ -292,7 +289,6 @@ def compiled_rollout(numba: Any) -> Any:
         read(number, 1),
         *(read(numba.int32, 1),) * 3,
         number,
-        read(whole, 1),
         number[:, :, ::1],
         number[:, ::1],
         whole[:, ::1],

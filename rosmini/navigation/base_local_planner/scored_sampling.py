@@ -46,7 +46,6 @@ def roll_out(
     footprint: Floats,
     scales: Floats,
     shift: float,
-    scored: Ints | None = None,
 ) -> Rollouts:
     """Simulate all samples with the compiled `rollout`.
 
@@ -79,7 +78,6 @@ def roll_out(
         scales,
         *(each.distances.reshape(-1) for each in grids),
         float(shift),
-        np.full(count, -1) if scored is None else scored,
         points,
         raw,
         where,

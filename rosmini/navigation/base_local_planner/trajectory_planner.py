@@ -18,23 +18,21 @@ from rosmini.core.geometry.poses import Pose
 from rosmini.core.parameters import Parameters, parameter
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
 
-from .costmap_model import footprint_cells, line_cells
+from .costmap_model import footprint_cells
 from .map_grid import MapGrid, grid_from, plan_cells
-from .scored_sampling import TOLERANCE, roll_out
+from .scored_sampling import roll_out
 from .trajectory import Samples, concatenated
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-CRITICS = ("obstacle", "path", "goal", "heading")
+CRITICS = ("obstacle", "path", "goal")
 COLLISION_COST = -1.0
 """The cost of a trajectory whose footprint touches an obstacle."""
 UNREACHABLE_COST = -2.0
 """The cost of a trajectory that ends where no path leads to the plan."""
-HEADING_SCALE = 0.3
 STRAFE = 0.1
 """A holonomic robot also tries this velocity ahead combined with the same velocity to either side [m/s]."""
-INSCRIBED = 253
 
 
 @dataclass(frozen=True)
@@ -80,11 +78,6 @@ class TrajectoryPlannerParameters(Parameters):
     holonomic_robot: bool = parameter(True, "whether the robot can move sideways")
     escape_vel: float = parameter(-0.1, "the velocity of backing up", unit="m/s", minimum=-2.0, maximum=2.0)
     dwa: bool = parameter(False, "try only velocities within reach of one cycle, not of sim_time")
-    heading_scoring: bool = parameter(False, "score the heading, and distances at one point only")
-    heading_scoring_timestep: float = parameter(
-        0.1, "time of the point that heading_scoring uses", unit="s", minimum=0.0, maximum=1.0
-    )
-    simple_attractor: bool = parameter(False, "drive straight to the end of the plan, without path distances")
     y_vels: str = parameter("-0.3,-0.1,0.1,-0.3", "sideways velocities to try if nothing else is possible")
     restore_defaults: bool = parameter(False, "reset all parameters to their initial values")
 
@@ -291,8 +284,6 @@ class TrajectoryPlanner:
 
     def _steps(self, velocities: Floats) -> Ints:
         p = self.parameters
-        if p.heading_scoring:
-            return np.full(len(velocities), max(1, int(p.sim_time / p.sim_granularity + 0.5)))
         speeds, turns = np.hypot(velocities[:, 0], velocities[:, 1]), np.abs(velocities[:, 2])
         # As in ROS, a turn is not multiplied by the time.
         steps = np.maximum(speeds * p.sim_time / p.sim_granularity, turns / p.angular_sim_granularity) + 0.5
@@ -303,61 +294,16 @@ class TrajectoryPlanner:
             raise RuntimeError("there is no plan: call update_plan first")
         p, count = self.parameters, len(velocities)
         steps = self._steps(velocities)
-        scored = self._scored_points(steps)
         motion = (np.tile(velocity, (count, 1)), velocities, p.accelerations)
         grids = (self.path, self.goal, self.goal)
-        found = roll_out(grid, grids, pose, motion, p.sim_time, steps, self.footprint, np.ones(count), 0.0, scored)
-        raw, where = np.zeros((count, 4)), np.full((count, 4), -1)
-        raw[:, :3], where[:, :3] = found.raw[:, [0, 3, 4]], found.where[:, [0, 3, 4]]
-        if p.simple_attractor:
-            self._score_attractor(found.points, steps, raw, where)
-        elif p.heading_scoring:
-            raw[:, 3] = self._headings(grid, found.points, steps, scored)
+        found = roll_out(grid, grids, pose, motion, p.sim_time, steps, self.footprint, np.ones(count), 0.0)
+        raw, where = found.raw[:, [0, 3, 4]], found.where[:, [0, 3, 4]]
         bias = grid.resolution if self.meter_scoring else 1.0
-        heading = HEADING_SCALE if p.heading_scoring else 0.0
-        scales = np.array([p.occdist_scale, p.path_distance_bias * bias, p.goal_distance_bias * bias, heading])
+        scales = np.array([p.occdist_scale, p.path_distance_bias * bias, p.goal_distance_bias * bias])
         totals, rejected_by = _totals(raw, where, scales)
         return Samples(
             CRITICS, scales, velocities, velocities, found.points, steps, raw, where, totals, rejected_by, pose=pose
         )
-
-    def _scored_points(self, steps: Ints) -> Ints:
-        """Return the point at which distances are measured, or -1 for the last one."""
-        p = self.parameters
-        if not p.heading_scoring:
-            return np.full(len(steps), -1)
-        dt = p.sim_time / steps
-        return np.ceil(p.heading_scoring_timestep / dt - TOLERANCE).astype(np.int64)
-
-    def _score_attractor(self, points: Floats, steps: Ints, raw: Floats, where: Ints) -> None:
-        ends = points[np.arange(len(steps)), steps - 1, :2]
-        raw[:, 1], raw[:, 2] = 0.0, ((ends - self.plan[-1, :2]) ** 2).sum(axis=1)
-        where[:, 1:3] = -1
-
-    def _headings(self, grid: Costmap2D, points: Floats, steps: Ints, scored: Ints) -> Floats:
-        """Return each sample's angle to the last visible point of the plan [rad]: `headingDiff`."""
-        seen: dict[tuple[int, int], tuple[float, float] | None] = {}
-        found = np.zeros(len(steps))
-        for n in np.flatnonzero(scored < steps):
-            x, y, theta = points[n, scored[n]]
-            cell = grid.world_to_map(x, y)
-            if cell is None:
-                continue
-            if cell not in seen:
-                seen[cell] = self._seen_from(grid, cell)
-            target = seen[cell]
-            if target is None:
-                found[n] = np.finfo(np.float64).max
-                continue
-            found[n] = abs(shortest_angular_distance(theta, math.atan2(target[1] - y, target[0] - x)))
-        return found
-
-    def _seen_from(self, grid: Costmap2D, cell: tuple[int, int]) -> tuple[float, float] | None:
-        for x, y in self.plan[::-1, :2]:
-            other = grid.world_to_map(x, y)
-            if other is not None and all(grid.costs[my, mx] < INSCRIBED for mx, my in line_cells(*cell, *other)):
-                return grid.map_to_world(*other)
-        return None
 
 
 def evenly(low: float, high: float, count: int) -> Floats:

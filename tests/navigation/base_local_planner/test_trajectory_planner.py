@@ -98,23 +98,6 @@ def test_it_backs_up_until_it_is_free_again():
     assert not planner.escaping
 
 
-def test_heading_scoring_prefers_to_look_at_the_plan():
-    p = replace(
-        WHEELS, heading_scoring=True, heading_scoring_timestep=0.8, path_distance_bias=0.0, goal_distance_bias=0.0
-    )
-    _, samples = planned(AHEAD, p)
-    assert samples.critics[3] == "heading"
-    assert samples.raw[samples.nearest(0.3, 0, 0), 3] == pytest.approx(0.0, abs=0.05)
-    assert samples.raw[samples.nearest(0.0, 0, 1.0), 3] > 0.5
-
-
-def test_the_simple_attractor_looks_at_the_end_of_the_plan_only():
-    _, samples = planned(AHEAD, replace(WHEELS, simple_attractor=True))
-    end = samples.trajectory(samples.best)[-1]
-    assert samples.raw[samples.best, 2] == pytest.approx((1.35 - end[0]) ** 2 + end[1] ** 2)
-    assert not samples.raw[:, 1].any()
-
-
 def test_meters_make_weights_independent_of_the_resolution():
     grid = local_grid()
     planner = TrajectoryPlanner(WHEELS, 0.1, meter_scoring=True)
