@@ -52,7 +52,7 @@ SAME = [
     "uri /frames", "args /robot1/info", "args /server/empty", "info /robot1/info",
     "find tf2_msgs/FrameGraph", "find nope/Nope", "call /frames", "call /server/empty",
     "call -v /robot1/info 'camera_info: {width: 3}'", "call --wait /frames",
-    "call /server/set_logger_level rosout warn", "call /robot1/info", "list a b", "find", "info", "type", "bogus",
+    "call /server/set_logger_level rosout warn", "list a b", "find", "info", "type", "bogus",
 ]  # fmt: skip
 
 
