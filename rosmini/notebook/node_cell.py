@@ -162,7 +162,13 @@ def _start_script(session: Session, path: Path, title: str, given: Words, text: 
             session.package.write("scripts", path.name, text, may_run=True)
         return ScriptHandle(graph, ScriptSpec(str(path), given.args), console, seed=_seed(given.args))
 
-    session.runs.start(RunKey.of(str(path), given.args), title, make, may_print=_PRINTS.search(source) is not None)
+    session.runs.start(
+        RunKey.of(str(path), given.args),
+        title,
+        make,
+        may_print=_PRINTS.search(source) is not None,
+        is_readers=path.is_relative_to(session.package.workspace),
+    )
 
 
 def _seed(args: Sequence[str]) -> str:

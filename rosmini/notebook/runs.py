@@ -87,10 +87,19 @@ class Runs:
             self._launches[tuple(words)] = made
             self.graph.run(0)
 
-    def start(self, key: RunKey, title: str, make: Callable[[], ScriptHandle | NodeHandle], *, may_print: bool) -> Run:
+    def start(
+        self,
+        key: RunKey,
+        title: str,
+        make: Callable[[], ScriptHandle | NodeHandle],
+        *,
+        may_print: bool,
+        is_readers: bool = False,
+    ) -> Run:
         """Start the result of ``make`` until it blocks; no time passes. An earlier run with this key ends first.
 
-        Raises the errors of ``make``; then nothing was ended.
+        If the script is the reader's and ends at once, a line says so. Raises the errors of ``make``; then nothing was
+        ended.
         """
         handle = make()
         self._end(key)
@@ -99,7 +108,7 @@ class Runs:
         handle.start()
         self._runs[key] = run
         self.graph.run(0)
-        if handle.poll() == 0 and run.node_name:
+        if is_readers and handle.poll() == 0 and run.node_name:
             self._say(f"{title} has ended, and its node {run.node_name} with it; rospy.spin() keeps a node alive.")
         return run
 

@@ -148,6 +148,8 @@ def test_a_node_that_ends_at_once_is_told(notebook: Notebook) -> None:
     written = notebook.ok("%%node short.py\nimport rospy\nrospy.init_node('short')")
     assert written == ("short.py has ended, and its node /short with it; rospy.spin() keeps a node alive.\n")
     assert notebook.ok("%%node hello.py\nprint('hello')") == "hello\n"
+    assert "has ended" in notebook.ok("%rosrun notebook short.py")
+    assert "has ended" not in notebook.ok("%rosrun dynamic_reconfigure dynparam list")
 
 
 def test_a_script_that_never_blocks_lets_time_pass(notebook: Notebook) -> None:
