@@ -129,7 +129,8 @@ EOF
 GRAPHS: dict[str, tuple[str, ...]] = {
     "topics_and_messages": (ROBOT, TALKER),
     "services": (ROBOT, TALKER),
-    "parameter_server": (ROBOT, DRIVER, FILES),
+    "parameter_server": (ROBOT, FILES),
+    "dynamic_reconfigure": (DRIVER,),
     "bags": (TALKER, RECORDED),
     "simulation_and_stage": (FILES,),
     "gazebo": (CRATE, "%roslaunch gazebo_ros empty_world.launch gui:=false"),
