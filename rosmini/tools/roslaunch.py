@@ -43,7 +43,7 @@ DESCRIPTION = (
     "of them in one, in simulated time if you like. Ctrl-C ends them."
 )
 
-ASKING = ("node_args", "node_list", "ros_args", "dump_params", "file_list", "check", "tree")
+ASKING = ("node_args", "node_list", "ros_args", "dump_params", "file_list", "check")
 """Options that only query and launch nothing."""
 
 
@@ -71,7 +71,6 @@ def parser() -> LaunchParser:
     made.flag("--dump-params", dest="dump_params", help="print all parameters as YAML")
     made.flag("--ros-args", dest="ros_args", help="print the arguments of the launch file")
     made.flag("--check", help="read everything, and name all that is missing (not in ROS)")
-    made.flag("--tree", help="print the plan: files, nodes, remappings, parameters (not in ROS)")
     made.flag("--screen", dest="force_screen", help="output of all nodes to the screen")
     made.flag("--log", dest="force_log", help="output of all nodes to log files")
     made.flag("--wait", dest="wait_for_master", help="wait for a Master; do not start one")
@@ -256,10 +255,8 @@ def answer(given: Values, plan: Plan, packages: PackageIndex) -> Lines:
         text = plan.ros_args()
     elif given.dump_params:
         text = plan.dump()
-    elif given.file_list:
-        text = "\n".join(os.path.abspath(path) for path in dict.fromkeys(plan.files()))  # noqa: PTH100 - not resolved
     else:
-        text = plan.text()
+        text = "\n".join(os.path.abspath(path) for path in dict.fromkeys(plan.files()))  # noqa: PTH100 - not resolved
     return Lines(lines=(text,))
 
 

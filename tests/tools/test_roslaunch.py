@@ -86,10 +86,6 @@ class TestAnswers:
         )
         assert self.said(capsys, "--files", str(twice))[1] == f"{twice}\n{file}\n"
 
-    def test_tree(self, capsys: Any) -> None:
-        lines = self.said(capsys, "--tree", "speaking", "demo.launch")[1].splitlines()
-        assert lines[:3] == ["3 nodes, 7 parameters, 1 file", "demo.launch", "  /robot1/pub1 (speaking/talker.py)"]
-
     def test_check_names_all_that_is_missing(self, capsys: Any) -> None:
         status, out, _ = self.said(capsys, "--check", "speaking", "incomplete.launch")
         assert status == 1

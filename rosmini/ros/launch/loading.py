@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Collection, Iterable, Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import ParameterError, nearest
@@ -25,9 +24,6 @@ CONDITIONS = ("if", "unless")
 
 MAX_SETTINGS = 100_000
 """Maximum number of parameters set."""
-
-MAX_OVERRIDDEN = 20
-"""Maximum number of overridden settings that a parameter remembers: the last ones."""
 
 MAX_WARNINGS = 100
 """Maximum number of warnings listed; the others are counted."""
@@ -167,11 +163,9 @@ class Loading:
         if self._settings > MAX_SETTINGS:
             raise ParameterError(f"more than {MAX_SETTINGS} parameters are set")
         settings = self.plan.settings
-        before = settings.get(name)
-        overrode = () if before is None else (*before.overrode, replace(before, overrode=()))[-MAX_OVERRIDDEN:]
         if len(name) > MAX_NAME_LENGTH:
             raise ParameterError(f"a parameter's name of {len(name)} characters; {MAX_NAME_LENGTH} are allowed")
-        setting = Setting(name, checked(name, value), place, origin, overrode)
+        setting = Setting(name, checked(name, value), place, origin)
         above = namespace(name).rstrip("/")
         while above:
             if above in settings and self._may_warn():

@@ -23,7 +23,7 @@ WIDEST = 20
 
 @dataclass(frozen=True)
 class Setting:
-    """A parameter setting, with its place and the setting it overrode.
+    """A parameter setting, with its place.
 
     ``source`` is the file or the command that gave the value, if it is not written in the launch file.
     """
@@ -32,7 +32,6 @@ class Setting:
     value: Any
     place: Place
     source: str = ""
-    overrode: tuple[Setting, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -166,11 +165,6 @@ class Plan:
     """Problems that do not prevent a launch; each begins with its place."""
     missing: list[Missing] = field(default_factory=list)
 
-    def __str__(self) -> str:
-        return self.text()
-
-    # -- looking at it -------------------------------------------------------------------------------------------
-
     @property
     def parameters(self) -> dict[str, Any]:
         """Values of all parameters, by name."""
@@ -197,10 +191,6 @@ class Plan:
             f"Cannot find node named [{wanted}] in [{', '.join(root.path for root in self.roots)}]"
             f"{f'; {hint}' if hint else ''}.\nNode names are:{listed}"
         )
-
-    def overridden(self) -> list[Setting]:
-        """Return the settings that overrode another value."""
-        return [each for each in self.settings.values() if any(old.value != each.value for old in each.overrode)]
 
     def dump(self) -> str:
         """Return the output of `roslaunch --dump-params`."""
@@ -238,32 +228,6 @@ class Plan:
             lines += sorted(f"    {node.name} ({node.executable})" for node in self.nodes if node.namespace == space)
         return "\n".join(lines)
 
-    def text(self) -> str:
-        """Return the whole plan as text: files, nodes with remappings, parameters with overridden values, warnings."""
-        counts = ((len(self.nodes), "node"), (len(self.settings), "parameter"), (len(self.files()), "file"))
-        lines = [", ".join(_many(count, noun) for count, noun in counts)]
-        for root in self.roots:
-            lines += _tree(root, 0)
-        if self.settings:
-            lines.append("parameters:")
-            lines += [f"  {name}: {shortened(each.value, 60)}" for name, each in sorted(self.settings.items())]
-        overrode = [
-            f"  {each.name}: {shortened(each.value)} ({base(each.place)}) instead of "
-            + ", ".join(f"{shortened(old.value)} ({base(old.place)})" for old in each.overrode)
-            for each in self.overridden()
-        ]
-        if overrode:
-            lines += ["overridden, the last setting wins:", *sorted(overrode)]
-        for title, found in (("warnings:", self.warnings), ("missing:", [f"{m.kind} {m.name}" for m in self.missing])):
-            if found:
-                lines += [title, *(f"  {each}" for each in found)]
-        return "\n".join(lines)
-
-
-def base(place: Place) -> str:
-    """Return a place with only the last part of its path."""
-    return f"{place.file.replace(os.sep, '/').rpartition('/')[2]}:{place.line}"
-
 
 def shortened(value: Any, widest: int = WIDEST) -> str:
     """Return a value as in roslaunch's summary: short, and on one line."""
@@ -273,19 +237,3 @@ def shortened(value: Any, widest: int = WIDEST) -> str:
     if all(" " <= char <= "~" for char in text.rstrip()):
         return text.rstrip() if not text.isprintable() else text
     return "<...>"
-
-
-def _tree(file: LaunchFile, depth: int) -> list[str]:
-    indent = "  " * depth
-    space = "" if file.namespace == "/" else f" in {file.namespace}"
-    lines = [f"{indent}{file.path.replace(os.sep, '/').rpartition('/')[2]}{space}"]
-    for node in file.nodes:
-        lines.append(f"{indent}  {node.full_name} ({node.executable})")
-        lines += [f"{indent}    {source} -> {target}" for source, target in node.remappings]
-    for each in file.includes:
-        lines += _tree(each, depth + 1)
-    return lines
-
-
-def _many(count: int, noun: str) -> str:
-    return f"{count} {noun}{'' if count == 1 else 's'}"
