@@ -78,7 +78,7 @@ def _expect_only(logs: list[Any], levels: tuple[int, ...]) -> None:
     )
 
 
-# ---- alarm: read the log ----
+# ---- log_alarm: read the log ----
 
 MESSAGES = (
     ("/arm", Log.WARN, "joint 3 is warm"),
@@ -100,8 +100,8 @@ def _log(trial: Trial) -> Any:
     return send
 
 
-@exercise("alarm", praise="It reads the log of every node, and passes on what matters.")
-def alarm(answer: Script) -> None:
+@exercise("log_alarm", praise="It reads the log of every node, and passes on what matters.")
+def log_alarm(answer: Script) -> None:
     """A node that publishes errors of all nodes as text."""
     with Trial("empty", is_shown=False) as trial:
         heard: list[str] = []

@@ -89,7 +89,7 @@ MISTAKES = {
         _why("ahead > 0.5", "ahead > 0.0"),
         _why("command.linear.x = 0.2", "pass"),
     ],
-    "alarm": [
+    "log_alarm": [
         _alarm(">= Log.ERROR", ">= Log.WARN"),
         _alarm(">= Log.ERROR", "== Log.ERROR"),
         _alarm("if log.level >= Log.ERROR:", 'if "ERROR" in log.msg:'),

@@ -120,6 +120,7 @@ MISTAKES = {
         _brake(first=True),
         _brake((", queue_size=1)\nwhile", ")\nwhile"), slow=True),
         _brake(("look(newest)", "rospy.sleep(0.5)")),
+        _brake(("rospy.sleep(0.5)", "rospy.sleep(0.1)")),
         _brake(("> 0.5", "> 0.2")),
         _brake(("> 0.5", "> 0.8")),
         _brake(("    cmd_vel.publish(command)\n", "")),
