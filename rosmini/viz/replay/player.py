@@ -252,5 +252,9 @@ def recorder_run(recording: Recording, **options: Any) -> Run | None:
         run = run_of(MemoryLog("the run", messages, start, end), start_at=(x, y, heading), **options)
     except NothingToSee:
         return None
-    believed = () if run.frame == "odom" else tuple(replace(b, name=f"{b.name} in {run.frame}") for b in run.bodies)
+    believed = (
+        ()
+        if run.frame.rpartition("/")[2] == "odom"
+        else tuple(replace(b, name=f"{b.name} in {run.frame}") for b in run.bodies)
+    )
     return replace(run, bodies=believed) if run.layers or believed else None

@@ -335,6 +335,15 @@ def test_a_recorder_with_layers_keeps_what_can_be_seen_and_a_window_what_is_in_f
     assert "layers" not in plain.data
 
 
+def test_odometry_of_a_robot_with_a_prefix_is_not_drawn_twice():
+    graph = Graph()
+    graph.node("owner").set_param("/simulator/robots", [{"name": "amy", "x": 1.0, "y": 0.5}, {"name": "bob"}])
+    recorder = Recorder(graph, Simulator(graph.node("simulator")), layers=True)
+    graph.run(2.0)
+    view = recorder.recording().replay()
+    assert "odom" not in view.text.partition("recorded")[2]
+
+
 def test_a_map_of_slam_is_laid_where_the_robot_started():
     graph = Graph()
     simulator = Simulator(graph.node("simulator"))
