@@ -74,7 +74,6 @@ def broken_rules(chapter: str) -> set[str]:
 
 
 TO_REWRITE: dict[str, set[str]] = {
-    "services": {"first motion", "hints", "lines", "mentions", "private API", "time"},
     "bags": {"cells", "columns", "hints", "lines", "mentions", "private API"},
     "turtlebot3": {"cells", "columns", "first motion", "hints", "lines", "mentions", "private API", "words"},
     "teleoperation": {"cells", "columns", "hints", "lines", "mentions", "private API", "words"},

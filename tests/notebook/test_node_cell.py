@@ -144,6 +144,13 @@ def test_a_failing_callback_is_logged_and_no_command_fails(notebook: Notebook) -
     assert "/listener" in notebook.ok("%rosnode list")
 
 
+def test_an_error_shows_the_line_of_the_script_as_it_is_now(notebook: Notebook) -> None:
+    notebook.ok(f"%%node talker.py\n{TALKER}")
+    for fault in ("1 / 0", "int('one')"):
+        notebook.ok(f"%%node listener.py\n{LISTENER.replace('message.data', fault)}")
+        assert f'in hear: print("heard", {fault})' in notebook.ok("import rosmini; rosmini.wait(1)")
+
+
 def test_a_node_that_ends_at_once_is_told(notebook: Notebook) -> None:
     written = notebook.ok("%%node short.py\nimport rospy\nrospy.init_node('short')")
     assert written == ("short.py has ended, and its node /short with it; rospy.spin() keeps a node alive.\n")

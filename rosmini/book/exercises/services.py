@@ -1,146 +1,165 @@
-"""Checks of the exercises in the chapter Services."""
+"""Checks of the exercises in the chapter Services: each runs a script with a separate robot."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from rosmini.book.checks import exercise, expect, expect_fields, expect_heard, expect_type
-from rosmini.core.errors import RosminiError, ServiceException
-from rosmini.core.graph import Graph, Node
-from rosmini.msgs import define_service
-from rosmini.msgs.std_msgs.msg import String
+from rosmini.book.checks import Script, exercise, expect
+from rosmini.book.trials import Trial
+from rosmini.core.errors import ROSException, ServiceException
+from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.msgs.std_srvs.srv import Empty, Trigger
 
-# ---- service_type: a service type ----
-
-PICTURE = """\
-uint32 width
-bool colour
----
-bool success
-string message
-sensor_msgs/Image image
-"""
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 
-@exercise("service_type", praise="These six lines are enough to write a client in any language.")
-def definition(answer: Any) -> None:
-    """The definition of a service with two fields in its request and three in its response."""
-    expect_type(answer, str, "definition is", "a string", 'write it between """three quotes"""')
+def call(trial: Trial, name: str, kind: Any) -> Any:
+    """Call a service of the answer; return its response. Raises `Wrong` if there is none, or if it fails."""
+    nodes = trial.graph.nodes
+    asker = nodes["/asker"] if "/asker" in nodes else trial.graph.node("asker")
     try:
-        given = define_service("my_robot/TakePicture", answer)
-    except RosminiError as error:
-        expect(False, f"This is not a service definition: {error}", "a field is 'type name', --- separates")
-        return
-    wanted = define_service("my_robot/TakePicture", PICTURE)
-    expect_fields(given._request_class, wanted._request_class, "request")
-    expect_fields(given._response_class, wanted._response_class, "response")
-    expect(given._md5sum == wanted._md5sum, "It has a constant that the task does not mention.")
-
-
-def _offered(graph: Graph, node: str, name: str, kind: Any) -> None:
-    """Expect that a node is there and offers a service of a type."""
-    expect(node in graph.nodes, f"There is no node {node}.", f'make it with graph.node("{node.lstrip("/")}")')
-    server = graph.nodes[node].services.get(name)
-    expect(server, f"{node} offers no service {name}.", "use node.service(name, type, handler)")
-    if server is not None:
-        found = server.service_class._type
-        expect(found == kind._type, f"{name} is a {found}, not a {kind._type}.")
-
-
-# ---- counter: two services that share something ----
-
-
-@exercise("counter", praise="Both handlers share one variable, and no other node can change it.")
-def counter(answer: Any) -> None:
-    """A service that counts its calls, and one that resets the counter."""
-    with Graph(strict=False) as graph:
-        answer(graph)
-        _offered(graph, "/counter", "/count", Trigger)
-        _offered(graph, "/counter", "/clear", Empty)
-        client = graph.node("client")
-        count, clear = (client.service_client(name, kind) for name, kind in (("count", Trigger), ("clear", Empty)))
-        answers = [count(), count(), count()]
-        clear()
-        answers.append(count())
-    expect(all(found.success for found in answers), "The field success is false.", "return True and the text")
-    messages = [found.message for found in answers]
-    expect(messages[:3] == ["1", "2", "3"], f"Three calls gave {messages[:3]}, not '1', '2', '3'.")
-    expect(messages[3] == "1", f"After clear the next call gave {messages[3]!r}, not '1'.")
-
-
-# ---- who_is_it: a client that is ready for everything ----
-
-
-@exercise("who_is_it", praise="Your program survives all three failures.")
-def who_is_it(answer: Any) -> None:
-    """A call that waits a limited time for its server, and handles failures."""
-
-    def refuse(_: Any) -> tuple[bool, str]:
-        return False, "I do not say"
-
-    def fail(_: Any) -> tuple[bool, str]:
-        raise ServiceException("out of order")
-
-    def tell(_: Any) -> tuple[bool, str]:
-        return True, "it is me"
-
-    cases = (
-        (tell, 0.0, "it is me", "the server is there from the start"),
-        (tell, 3.0, "it is me", "the server starts after 3 s, and the limit is 5 s"),
-        (tell, 9.0, "nobody", "the server starts after 9 s, and the limit is 5 s"),
-        (refuse, 0.0, "no answer", "the field success of the response is false"),
-        (fail, 0.0, "no answer", "the handler raises an error"),
-    )
-    for handler, delay, expected, case in cases:
-        with Graph(strict=False) as graph:
-            server = graph.node("server")
-
-            def offer(_: Any = None, server: Node = server, handler: Any = handler) -> None:
-                server.service("who", Trigger, handler)
-
-            if delay:
-                server.timer(delay, offer, oneshot=True)
-            else:
-                offer()
-            start = graph.now()
-            found = answer(graph.node("client"), 5.0)
-            waited = (graph.now() - start).to_sec()
-        expect(
-            found == expected,
-            f"When {case} it returned {found!r}, not {expected!r}.",
-            "wait_for_service raises ROSException, and the call raises ServiceException",
-        )
-        expect(waited <= 5.0, f"When {case} it took {waited:g} s.", "wait_for_service(..., timeout=seconds)")
-
-
-# ---- secretary: a service that remembers a topic ----
-
-
-@exercise("secretary", praise="It answers at once, even while other nodes are busy.")
-def secretary(answer: Any) -> None:
-    """A node that stores the last message of a topic and returns it on request."""
-    with Graph(strict=False) as graph:
-        answer(graph)
-        _offered(graph, "/secretary", "/last_status", Trigger)
-        worker = graph.node("worker").publisher("status", String)
-        graph.run(0.1)
-        expect_heard(worker)
-        ask = graph.node("boss").service_client("last_status", Trigger)
-        start, answers = graph.now(), [ask()]
-        waited = (graph.now() - start).to_sec()
-        for status in ("starting", "driving"):
-            worker.publish(status)
-            graph.run(0.1)
-            start = graph.now()
-            answers.append(ask())
-            waited += (graph.now() - start).to_sec()
-    found = [(each.success, each.message) for each in answers]
-    expect(waited == 0, f"The answers took {waited:g} s.", "store the status in the callback, for the handler")
+        asker.wait_for_service(name, timeout=1.0)
+    except ROSException:
+        expect(False, f"No node offers /{name}.", f'rospy.Service("{name}", {kind.__name__}, ...) offers it')
+    before = trial.graph.now().to_sec()
+    try:
+        response = asker.service_client(name, kind)()
+    except ServiceException as error:
+        trial.expect_no_errors()
+        expect(False, f"The call of /{name} failed: {error}", "the handler must return a response")
     expect(
-        found[0] == (False, "nothing yet"),
-        f"Before any status it answers {found[0]}.",
-        "return False and the message 'nothing yet'",
+        trial.graph.now().to_sec() - before < 0.1,
+        f"/{name} does not answer at once.",
+        "let the callback of the topic store the value, and the handler only read it",
     )
-    expect(found[1] == (True, "starting"), f"After the status 'starting' it answers {found[1]}.")
-    expect(found[2] == (True, "driving"), f"After 'starting' and 'driving' it answers {found[2]}.")
+    return response
+
+
+def drive(trial: Trial, speed: float, seconds: float) -> None:
+    """Let the trial's robot drive ahead, then stop."""
+    nodes = trial.graph.nodes
+    driver = nodes["/driver"] if "/driver" in nodes else trial.graph.node("driver")
+    cmd_vel = driver.publisher("cmd_vel", Twist, queue_size=1)
+    cmd_vel.wait_for_subscribers()
+    for _ in range(round(seconds * 10)):
+        command = Twist()
+        command.linear.x = speed
+        cmd_vel.publish(command)
+        trial.run(0.1)
+    cmd_vel.publish(Twist())
+    trial.run(0.5)
+
+
+# ---- trip: two services and a topic ----
+
+
+@exercise("trip", praise="It counted backward metres, too.", gaps=2)
+def trip(answer: Script) -> Any:
+    """The service answers with the distance driven since the last call of clear."""
+    with Trial("arena", "_x:=-1.5") as trial:
+        trial.start(answer)
+        trial.run(1.0)
+        for speed, seconds, low, high in ((0.2, 6.0, 1.1, 1.35), (-0.2, 3.0, 1.65, 2.0)):
+            drive(trial, speed, seconds)
+            response = call(trial, "trip", Trigger)
+            trial.expect_no_errors()
+            expect(response.success, "The response of /trip has success False.", "TriggerResponse(True, message)")
+            try:
+                metres = float(response.message)
+            except ValueError:
+                metres = -1.0
+            expect(
+                response.message == f"{metres:.2f}",
+                f"/trip answers {response.message!r}, not a number with two decimals.",
+                'f"{metres:.2f}" writes it',
+            )
+            expect(
+                low < metres < high,
+                f"After about {(low + high) / 2:.1f} m, /trip answers {response.message}.",
+                "the message is the sum of the distances, in metres",
+            )
+        call(trial, "clear", Empty)
+        trial.run(0.5)
+        after = call(trial, "trip", Trigger).message
+        expect(after in {"0.00", "0.01"}, f"After /clear, /trip answers {after}.", "on_clear needs: global metres")
+        return trial.view()
+
+
+# ---- ask_first: a careful client ----
+
+
+def _fail(_request: Any) -> tuple[bool, str]:
+    raise RuntimeError("the door is jammed")
+
+
+DOORS: tuple[tuple[str, Callable[[Any], tuple[bool, str]] | None, float, bool], ...] = (
+    ("If there is no service", None, 0.0, False),
+    ("If the door refuses", lambda _request: (False, "closed"), 0.0, False),
+    ("If the call fails", _fail, 0.0, False),
+    ("If the door opens", lambda _request: (True, "open"), 0.0, True),
+    ("If the service starts after three seconds", lambda _request: (True, "open"), 3.0, True),
+)
+
+
+@exercise("ask_first", praise="It drove only if the door had said so.")
+def ask_first(answer: Script) -> Any:
+    """The script drives only after a successful call."""
+    view = None
+    for case, handler, delay, drives in DOORS:
+        with Trial("arena", "_x:=-1.5") as trial:
+            if delay:
+                trial.start(answer)
+                trial.run(delay)
+            if handler is not None:
+                door = trial.graph.node("door")
+                door.logger.set_level("rosout", "FATAL")  # a door that fails is part of the trial
+                door.service("open_door", Trigger, handler)
+            if not delay:
+                trial.start(answer)
+            start = trial.robot.truth()[0]
+            trial.run(14.0)
+            moved = trial.robot.truth()[0] - start
+            if drives:
+                expect(moved > 0.5, f"{case}, the robot drove {moved:.2f} m.", "is_open must return True then")
+                expect(moved < 1.3, f"{case}, the robot drove {moved:.2f} m, not 1 m.", "keep the loop of the stub")
+            else:
+                expect(moved < 0.05, f"{case}, the robot drove {moved:.2f} m.", "is_open must return False then")
+            view = trial.view()
+    return view
+
+
+# ---- is_free: a service that answers from a topic ----
+
+
+@exercise("is_free", praise="The callback writes, the handler reads, and no node waits.", gaps=2)
+def is_free(answer: Script) -> Any:
+    """The service answers from the latest scan."""
+    with Trial("room", "_x:=1.2") as trial:
+        trial.start(answer)
+        first = call(trial, "is_free", Trigger)
+        expect(
+            (first.success, first.message) == (False, "no scan yet"),
+            f"Before the first scan it answers {first.success}, {first.message!r}.",
+            'test ahead first: if it is None, the answer is False and "no scan yet"',
+        )
+        for speed, seconds, free in ((0.0, 1.0, True), (0.2, 7.5, False)):
+            drive(trial, speed, seconds)
+            trial.expect_no_errors()
+            ahead = 3.3 + 0.03 - trial.robot.truth()[0]
+            found = call(trial, "is_free", Trigger)
+            expect(
+                found.success is free,
+                f"The wall is {ahead:.1f} m ahead, and success is {found.success}.",
+                "success is True if the distance is at least 1.0",
+            )
+            try:
+                metres = float(found.message)
+            except ValueError:
+                metres = -1.0
+            expect(
+                abs(metres - ahead) < 0.1 and found.message == f"{metres:.2f}",
+                f"The wall is {ahead:.2f} m ahead, and the message is {found.message!r}.",
+                'f"{ahead:.2f}" is the message',
+            )
+        return trial.view()

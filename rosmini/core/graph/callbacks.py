@@ -69,6 +69,7 @@ def _users_line(error: BaseException) -> str | None:
         return None
     frame, number = best
     code = frame.f_code
+    linecache.checkcache(code.co_filename)  # a notebook's cell may have written the script again
     text = linecache.getline(code.co_filename, number, frame.f_globals).strip()
     source = source_of(code.co_filename)
     return f"  {Path(source).name}, line {number}, in {code.co_name}" + (f": {text}" if text else "")

@@ -1,145 +1,119 @@
-"""Wrong answers to the exercises of the chapter Services."""
+"""Wrong answers to the exercises of the chapter Services: right ones with a fault put in."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from .nodes_and_master import wrong
 
-from rosmini.book.exercises.services import PICTURE
-from rosmini.core.errors import ROSException, ServiceException
-from rosmini.core.graph import Graph, Node
-from rosmini.msgs.std_msgs.msg import String
-from rosmini.msgs.std_srvs.srv import Empty, Trigger
+TRIP = """
+import math
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
+import rospy
+from nav_msgs.msg import Odometry
+from std_srvs.srv import Empty, EmptyResponse, Trigger, TriggerResponse
 
+metres, last = 0.0, None
 
-def _picture_but(old: str, new: str) -> Callable[[], Any]:
-    return lambda: PICTURE.replace(old, new)
+def on_odom(odom):
+    global metres, last
+    here = odom.pose.pose.position
+    if last is not None:
+        metres += math.hypot(here.x - last.x, here.y - last.y)
+    last = here
 
+def on_trip(request):
+    return TriggerResponse(True, f"{metres:.2f}")
 
-# ---- counter: two services that share something ----
+def on_clear(request):
+    global metres
+    metres = 0.0
+    return EmptyResponse()
 
+rospy.init_node("trip")
+rospy.Subscriber("odom", Odometry, on_odom)
+rospy.Service("trip", Trigger, on_trip)
+rospy.Service("clear", Empty, on_clear)
+rospy.spin()
+"""
 
-def _counter(
-    *, first: int = 0, step: int = 1, cleared: int = 0, name: str = "counter", success: bool = True, clears: bool = True
-) -> Callable[[], Any]:
-    def start(graph: Graph) -> None:
-        node = graph.node(name)
-        calls = [first]
+ASK = """
+import rospy
+from geometry_msgs.msg import Twist
+from std_srvs.srv import Trigger
 
-        def count(_: Any) -> tuple[bool, str]:
-            calls[0] += step
-            return success, str(calls[0])
+def is_open():
+    try:
+        rospy.wait_for_service("open_door", timeout=5)
+        return rospy.ServiceProxy("open_door", Trigger)().success
+    except (rospy.ROSException, rospy.ServiceException):
+        return False
 
-        def clear(_: Any) -> list[Any]:
-            calls[0] = cleared
-            return []
+rospy.init_node("ask")
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+if is_open():
+    command = Twist()
+    command.linear.x = 0.2
+    for _ in range(50):
+        cmd_vel.publish(command)
+        rospy.sleep(0.1)
+    cmd_vel.publish(Twist())
+rospy.spin()
+"""
 
-        node.service("count", Trigger, count)
-        if clears:
-            node.service("clear", Empty, clear)
+FREE = """
+import rospy
+from sensor_msgs.msg import LaserScan
+from std_srvs.srv import Trigger, TriggerResponse
 
-    return lambda: start
+ahead = None
 
+def on_scan(scan):
+    global ahead
+    ahead = scan.ranges[0]
 
-def _number_as_message(graph: Graph) -> None:
-    node = graph.node("counter")
-    node.service("count", Trigger, lambda _: (True, 1))
-    node.service("clear", Empty, lambda _: [])
+def on_request(request):
+    if ahead is None:
+        return TriggerResponse(False, "no scan yet")
+    return TriggerResponse(ahead >= 1.0, f"{ahead:.2f}")
 
-
-# ---- who_is_it: a client that is ready for everything ----
-
-
-def _careful(
-    *, wait: bool = True, catch: bool = True, look: bool = True, limit: float | None = None
-) -> Callable[[], Any]:
-    def ask(node: Node, seconds: float) -> str:
-        if wait:
-            try:
-                node.wait_for_service("who", timeout=seconds if limit is None else limit)
-            except ROSException:
-                return "nobody"
-        try:
-            answer = node.service_client("who", Trigger)()
-        except ServiceException:
-            if catch:
-                return "no answer"
-            raise
-        return str(answer.message) if answer.success or not look else "no answer"
-
-    return lambda: ask
-
-
-# ---- secretary: a service that remembers a topic ----
-
-
-def _secretary(
-    *, first: bool = False, before: str = "nothing yet", topic: str = "status", known: bool = True
-) -> Callable[[], Any]:
-    def start(graph: Graph) -> None:
-        node = graph.node("secretary")
-        heard: list[str] = []
-
-        def tell(_: Any) -> tuple[bool, str]:
-            return (known, heard[0 if first else -1]) if heard else (False, before)
-
-        node.subscriber(topic, String, lambda message: heard.append(message.data))
-        node.service("last_status", Trigger, tell)
-
-    return lambda: start
-
-
-def _waiting_secretary(graph: Graph) -> None:
-    node = graph.node("secretary")
-    node.subscriber("status", String)
-
-    def tell(_: Any) -> tuple[bool, str]:
-        try:
-            return True, node.wait_for_message("status", String, timeout=1.0).data
-        except ROSException:
-            return False, "nothing yet"
-
-    node.service("last_status", Trigger, tell)
+rospy.init_node("free")
+rospy.Subscriber("scan", LaserScan, on_scan, queue_size=1)
+rospy.Service("is_free", Trigger, on_request)
+rospy.spin()
+"""
 
 
 MISTAKES = {
-    "service_type": [
-        _picture_but("---\n", ""),
-        _picture_but("uint32", "int32"),
-        _picture_but("bool colour\n", ""),
-        _picture_but("uint32 width\nbool colour", "bool colour\nuint32 width"),
-        _picture_but("sensor_msgs/", ""),
-        _picture_but("Image image", "Image picture"),
-        _picture_but("---\nbool success", "bool success\n---"),
-        _picture_but("string message", "string message\nstring encoding"),
-        lambda: ["uint32 width", "bool colour"],
+    "trip": [
+        wrong("trip.py", TRIP, "    global metres\n    metres = 0.0\n", "    metres = 0.0\n"),
+        wrong("trip.py", TRIP, "{metres:.2f}", "{metres:.1f} m"),
+        wrong("trip.py", TRIP, "    return EmptyResponse()", "    pass"),
+        wrong("trip.py", TRIP, "TriggerResponse(True,", "TriggerResponse(False,"),
+        wrong("trip.py", TRIP, 'Service("clear"', 'Service("reset"'),
+        wrong("trip.py", TRIP, "metres += math.hypot(here.x - last.x, here.y - last.y)", "metres += here.x - last.x"),
     ],
-    "counter": [
-        _counter(first=-1),
-        _counter(step=0),
-        _counter(cleared=1),
-        _counter(name="count"),
-        _counter(success=False),
-        _counter(clears=False),
-        lambda: _number_as_message,
-        lambda: lambda graph: graph.node("counter"),
+    "ask_first": [
+        wrong("ask.py", ASK, "().success", "()"),
+        wrong("ask.py", ASK, "rospy.ROSException, rospy.ServiceException", "rospy.ServiceException"),
+        wrong("ask.py", ASK, "rospy.ROSException, rospy.ServiceException", "KeyError"),
+        wrong("ask.py", ASK, '        rospy.wait_for_service("open_door", timeout=5)\n'),
+        wrong("ask.py", ASK, "return False", "return True"),
+        wrong("ask.py", ASK, "().success", "().succes"),
     ],
-    "who_is_it": [
-        _careful(wait=False),
-        _careful(catch=False),
-        _careful(look=False),
-        _careful(limit=1.0),
-        _careful(limit=60.0),
-        lambda: lambda node, seconds: "nobody",
-    ],
-    "secretary": [
-        _secretary(first=True),
-        _secretary(before=""),
-        _secretary(topic="state"),
-        _secretary(known=False),
-        lambda: _waiting_secretary,
-        lambda: lambda graph: graph.node("secretary"),
+    "is_free": [
+        wrong("free.py", FREE, "ahead >= 1.0", "ahead < 1.0"),
+        wrong(
+            "free.py",
+            FREE,
+            "    if ahead is None:\n        return TriggerResponse(False, 'no scan yet')\n".replace("'", '"'),
+        ),
+        wrong("free.py", FREE, 'f"{ahead:.2f}"', '"free"'),
+        wrong("free.py", FREE, "    global ahead\n"),
+        wrong("free.py", FREE, '"is_free"', '"free"'),
+        wrong(
+            "free.py",
+            FREE,
+            "    if ahead is None",
+            '    rospy.wait_for_message("scan", LaserScan)\n    if ahead is None',
+        ),
     ],
 }
