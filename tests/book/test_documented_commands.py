@@ -131,7 +131,7 @@ GRAPHS: dict[str, tuple[str, ...]] = {
     "services": (ROBOT, TALKER),
     "parameter_server": (ROBOT, FILES),
     "dynamic_reconfigure": (DRIVER,),
-    "bags": (TALKER, RECORDED),
+    "bags": (ROBOT, RECORDED),
     "simulation_and_stage": (FILES,),
     "gazebo": (CRATE, "%roslaunch gazebo_ros empty_world.launch gui:=false"),
     "frames": (ROBOT, SHELF),

@@ -74,7 +74,6 @@ def broken_rules(chapter: str) -> set[str]:
 
 
 TO_REWRITE: dict[str, set[str]] = {
-    "bags": {"cells", "columns", "hints", "lines", "mentions", "private API"},
     "turtlebot3": {"cells", "columns", "first motion", "hints", "lines", "mentions", "private API", "words"},
     "teleoperation": {"cells", "columns", "hints", "lines", "mentions", "private API", "words"},
     "file_system": {"columns", "mentions"},

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
-from io import BytesIO
+import re
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from rosmini.book.checks import exercise, expect, expect_type
+from rosmini.book.checks import Script, exercise, expect
+from rosmini.book.trials import Trial
 from rosmini.core.time import Time
 from rosmini.msgs.geometry_msgs.msg import Twist, Vector3
 from rosmini.msgs.nav_msgs.msg import Odometry
@@ -18,63 +21,48 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 
-def _bag(messages: Iterable[tuple[str, Any, float]]) -> Bag:
-    """Return a bag in memory, with messages recorded at the given times [s]."""
-    file = BytesIO()
-    with Bag(file, "w") as bag:
+def _write(path: Path, messages: Iterable[tuple[str, Any, float]]) -> None:
+    """Write a bag with messages recorded at the given times [s]."""
+    with Bag(path, "w") as bag:
         for topic, message, time in messages:
             bag.write(topic, message, Time.from_nsec(round(time * 1e9)))
-    return Bag(file)
-
-
-def _odometry(x: float, y: float) -> Any:
-    message = Odometry()
-    message.pose.pose.position.x, message.pose.pose.position.y = x, y
-    return message
-
-
-# ---- message_counts: how many messages on which topic ----
-
-
-@exercise("message_counts", praise="`rosbag info` prints the same numbers, one line for each topic.")
-def message_counts(answer: Any) -> None:
-    """A dictionary from topics to their message counts."""
-    bag = _bag([("/chatter", String("x"), float(i)) for i in range(5)] + [("/news", String("x"), 2.5)])
-    found = answer(bag)
-    expect_type(found, dict, "It returned", "a dictionary")
-    expect(
-        set(found) == {"/chatter", "/news"}, f"The topics of the test bag are /chatter and /news, not {sorted(found)}."
-    )
-    expect(
-        found == {"/chatter": 5, "/news": 1},
-        f"The test bag has 5 messages on /chatter and 1 on /news; you counted {found['/chatter']} and "
-        f"{found['/news']}.",
-        "add one for each message from read_messages()",
-    )
 
 
 # ---- longest_silence: the longest silence ----
 
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
 
-@exercise("longest_silence", praise="The timeline shows the gap; your function measures it.")
-def longest_silence(answer: Any) -> None:
-    """The longest time between two messages of one topic."""
-    times = (10.0, 10.5, 14.25, 15.0)
-    messages = [("/chatter", String("x"), time) for time in times]
-    bag = _bag([*messages, *(("/news", String("x"), float(time)) for time in range(10, 17))])
-    found = answer(bag, "/chatter")
-    expect_type(found, int | float, "It returned", "a number of seconds")
-    expect(
-        math.isclose(found, 3.75, abs_tol=1e-6),
-        f"In the test bag, /chatter is silent from 10.5 to 14.25 s, for 3.75 s; your result is {found:g} s.",
-        "use the times of one topic only, and take the largest difference between consecutive ones",
-    )
-    other = answer(bag, "/news")
-    expect(
-        math.isclose(other, 1.0, abs_tol=1e-6),
-        f"/news has a message every second; your result is {other:g} s.",
-        "use the topic in the argument",
-    )
+
+@exercise("longest_silence", praise="The timeline shows the gap; your script measures it.")
+def longest_silence(answer: Script) -> None:
+    """A script that prints the longest time between two messages of one topic."""
+    messages = [("/chatter", String("x"), time) for time in (10.0, 10.5, 14.25, 15.0)]
+    news = [("/news", String("x"), float(time)) for time in range(9, 19)]
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "test.bag"
+        _write(path, sorted(messages + news, key=lambda message: message[2]))
+        found = _printed(answer, str(path), "/chatter")
+        expect(
+            math.isclose(found, 3.75, abs_tol=0.01),
+            f"In the test bag, /chatter is silent from 10.5 to 14.25 s, for 3.75 s; your script prints {found:g}.",
+            "use the times of one topic only, and take the largest difference between consecutive ones",
+        )
+        other = _printed(answer, str(path), "/news")
+        expect(
+            math.isclose(other, 1.0, abs_tol=0.01),
+            f"/news has a message every second; your script prints {other:g}.",
+            "use the topic in sys.argv[2]",
+        )
+
+
+def _printed(answer: Script, *args: str) -> float:
+    """Return the last number that a script prints."""
+    with Trial(is_shown=False) as trial:
+        trial.start(answer, *args)
+        trial.run(1.0)
+        numbers = NUMBER.findall(trial.output)
+    expect(numbers, "The script prints no number.", "print the longest time in seconds")
+    return float(numbers[-1])
 
 
 # ---- fast_commands: a filter ----
@@ -90,7 +78,7 @@ def fast_commands(answer: Any) -> None:
         ("/cmd_vel", Twist(linear=Vector3(x=0.1)), False, "a command of exactly 0.1 m/s"),
         ("/cmd_vel", Twist(linear=Vector3(x=-0.2)), False, "a command to drive backwards"),
         ("/cmd_vel", Twist(Vector3(x=0.0), Vector3(z=1.0)), False, "a command to turn on the spot"),
-        ("/odom", _odometry(1.0, 1.0), False, "a message on /odom"),
+        ("/odom", Odometry(), False, "a message on /odom"),
     ]
     try:
         chosen = compile_expression(answer)
@@ -106,22 +94,51 @@ def fast_commands(answer: Any) -> None:
         )
 
 
-# ---- distance_driven: how far did it drive ----
+# ---- way_back: the recorded commands, backwards ----
 
-
-@exercise(
-    "distance_driven", praise="The sum of small steps counts every turn; the distance between the ends would not."
+DRIVES = (
+    (((0.2, 0.0), 0.3, 8), ((0.1, 0.5), 0.1, 30), ((0.15, -0.4), 0.2, 12)),
+    (((0.0, 0.6), 0.2, 8), ((0.2, 0.0), 0.1, 25)),
 )
-def distance_driven(answer: Any) -> None:
-    """The length of the path recorded on /odom [m]."""
-    square = [(0, 0), (1, 0), (1, 2), (-0.5, 2), (-0.5, 0)]
-    bag = _bag(
-        [("/odom", _odometry(x, y), float(i)) for i, (x, y) in enumerate(square)] + [("/news", String("x"), 1.5)]
-    )
-    found = answer(bag)
-    expect_type(found, int | float, "It returned", "a number of metres")
-    expect(
-        math.isclose(found, 6.5, abs_tol=1e-6),
-        f"In the test bag the robot drives 1 + 2 + 1.5 + 2 = 6.5 m; your result is {found:.2f} m.",
-        "add up the distances from each position to the next: math.dist((x0, y0), (x1, y1))",
-    )
+"""Drives of parts: the speed and the turn, the interval between commands [s], and the number of commands."""
+
+
+@exercise("way_back", praise="Twice the robot was driven away, and twice it came back, tail first.")
+def way_back(answer: Script) -> Any:
+    """A node that drives the robot back along a recorded drive."""
+    return [_comes_back(answer, drive) for drive in DRIVES][-1]
+
+
+def _comes_back(answer: Script, drive: Iterable[tuple[tuple[float, float], float, int]]) -> Any:
+    with TemporaryDirectory() as folder, Trial("arena", "_x:=-1.0", "_y:=0.5") as trial:
+        wheels = trial.graph.node("person").publisher("cmd_vel", Twist, queue_size=1)
+        trial.run(1.0)
+        start = trial.robot.truth()
+        messages = []
+        for (speed, turn), interval, count in drive:
+            for _ in range(count):
+                command = Twist(Vector3(x=speed), Vector3(z=turn))
+                messages.append(("/cmd_vel", command, trial.graph.now().to_sec()))
+                wheels.publish(command)
+                trial.run(interval)
+        messages.append(("/cmd_vel", Twist(), trial.graph.now().to_sec()))
+        wheels.publish(Twist())
+        _write(Path(folder) / "test.bag", messages)
+        trial.run(1.0)
+        away = trial.robot.truth()
+        trial.start(answer, str(Path(folder) / "test.bag"))
+        trial.run(messages[-1][2] - messages[0][2] + 2.0)
+        trial.expect_no_errors()
+        back = trial.robot.truth()
+        far, left = math.dist(start[:2], away[:2]), math.dist(start[:2], back[:2])
+        expect(math.dist(away[:2], back[:2]) > 0.05, "The robot did not move.", "publish each command on cmd_vel")
+        turned = abs(math.remainder(back[2] - start[2], math.tau))
+        expect(
+            left < 0.15 and turned < 0.45,
+            f"It was driven {far:.2f} m away, and your node left it {left:.2f} m from its start, turned by "
+            f"{math.degrees(turned):.0f} degrees.",
+            "the last command comes first, with both speeds negative, and lasts as long as it did in the bag",
+        )
+        trial.run(0.5)
+        expect(math.dist(back[:2], trial.robot.truth()[:2]) < 0.01, "The robot does not stop.", "publish Twist() last")
+        return trial.view()

@@ -57,7 +57,6 @@ def test_they_are_right_too(number: str, answer: Any) -> None:
 @pytest.mark.parametrize(
     ("number", "answer"),
     [
-        ("message_counts", lambda true: lambda _: {"/chatter": 5, "/news": true}),
         ("cures", lambda true: {true: "c", 2: "a", 3: "b", 4: "d"}),
         ("demand", lambda true: true),
         ("survivors", lambda true: lambda *_: [0, true, true, 3, 3]),

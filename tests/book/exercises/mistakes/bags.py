@@ -1,39 +1,48 @@
-"""Wrong answers to the exercises of the chapter Bags."""
+"""Wrong answers to the exercises of the chapter Bags: right ones with a fault put in."""
 
 from __future__ import annotations
 
-import math
-from itertools import pairwise
+from .nodes_and_master import wrong
 
-from rosmini.ros.bag import Bag
+SILENCE = """
+import sys
 
-# ---- longest_silence: the longest silence ----
+import rosbag
 
+with rosbag.Bag(sys.argv[1]) as bag:
+    times = [t.to_sec() for _, _, t in bag.read_messages(sys.argv[2])]
+print(max(later - earlier for earlier, later in zip(times, times[1:])))
+"""
 
-def _silences(bag: Bag, topic: str) -> list[float]:
-    times = [t.to_sec() for _, _, t in bag.read_messages(topic)]
-    return [after - before for before, after in pairwise(times)]
+WAY_BACK = """
+import sys
 
+import rosbag
+import rospy
+from geometry_msgs.msg import Twist
 
-def _ends(bag: Bag) -> tuple[float, float]:
-    table = bag.table("/odom")
-    x, y = table["pose.pose.position.x"], table["pose.pose.position.y"]
-    return float(x[-1] - x[0]), float(y[-1] - y[0])
+with rosbag.Bag(sys.argv[1]) as bag:
+    drive = [(m, t) for _, m, t in bag.read_messages("/cmd_vel")]
 
+rospy.init_node("way_back")
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+rospy.sleep(0.5)
+for (command, begin), (_, end) in reversed(list(zip(drive, drive[1:]))):
+    command.linear.x *= -1
+    command.angular.z *= -1
+    cmd_vel.publish(command)
+    rospy.sleep(end - begin)
+cmd_vel.publish(Twist())
+"""
 
 MISTAKES = {
-    "message_counts": [
-        lambda: lambda bag: {topic: 1 for topic, _, _ in bag.read_messages()},
-        lambda: lambda bag: bag.get_message_count(),
-        lambda: lambda bag: {"/chatter": bag.get_message_count("/chatter")},
-        lambda: lambda bag: [topic for topic, _, _ in bag.read_messages()],
-    ],
     "longest_silence": [
-        lambda: lambda bag, topic: min(_silences(bag, topic)),
-        lambda: lambda bag, topic: sum(_silences(bag, topic)),
-        lambda: lambda bag, topic: _silences(bag, topic)[0],
-        lambda: lambda bag, _: bag.get_end_time() - bag.get_start_time(),
-        lambda: lambda bag, _: max(_silences(bag, "/chatter")),
+        wrong("silence.py", SILENCE, "max(later", "min(later"),
+        wrong("silence.py", SILENCE, "max(later", "sum(later"),
+        wrong("silence.py", SILENCE, "sys.argv[2]", '"/chatter"'),
+        wrong("silence.py", SILENCE, "(sys.argv[2])", "()"),
+        wrong("silence.py", SILENCE, "print(", "(lambda x: x)("),
+        wrong("silence.py", SILENCE, "sys.argv[1]", '"nosuch.bag"'),
     ],
     "fast_commands": [
         lambda: "topic == '/cmd_vel'",
@@ -44,10 +53,12 @@ MISTAKES = {
         lambda: "topic == '/odom' and m.linear.x > 0.1",
         lambda: 1,
     ],
-    "distance_driven": [
-        lambda: lambda _: 2.0,
-        lambda: lambda bag: len(list(bag.read_messages("/odom"))),
-        lambda: lambda bag: math.hypot(*_ends(bag)),
-        lambda: lambda bag: sum(_ends(bag)),
+    "way_back": [
+        wrong("way_back.py", WAY_BACK, "reversed(list(zip(drive, drive[1:])))", "zip(drive, drive[1:])"),
+        wrong("way_back.py", WAY_BACK, "    command.linear.x *= -1\n"),
+        wrong("way_back.py", WAY_BACK, "    command.angular.z *= -1\n"),
+        wrong("way_back.py", WAY_BACK, "end - begin", "0.1"),
+        wrong("way_back.py", WAY_BACK, "    cmd_vel.publish(command)\n"),
+        wrong("way_back.py", WAY_BACK, "sys.argv[1]", '"nosuch.bag"'),
     ],
 }
