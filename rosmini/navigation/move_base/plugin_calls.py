@@ -1,16 +1,19 @@
-"""Calls of planners and recovery behaviours from other packages, which may raise or block forever.
+"""Calls of planners and recovery behaviours from other packages, which may raise, block forever, or never return.
 
-Plugins of rosmini are called directly. Others run in a separate lane with a budget in seconds of the graph's time.
-Wall-clock time has no effect, so the result is the same on every machine.
+Plugins of rosmini are called directly. Others run in a separate lane with a budget: blocking is limited in seconds of
+the graph's time, and computing by the number of loop iterations, of which 1,000 count as a millisecond, as for loops
+in scripts. Wall-clock time has no effect, so the result is the same on every machine.
 """
 
 from __future__ import annotations
 
+import sys
 import sysconfig
 import traceback
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from types import FrameType
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import ROSInterruptException
@@ -18,6 +21,9 @@ from rosmini.navigation.nav_core import NavigationFailure
 
 if TYPE_CHECKING:
     from rosmini.core.graph import Node
+
+ITERATIONS_PER_SECOND = 1_000_000
+"""Number of loop iterations that count as one second."""
 
 _ROSMINI = str(Path(__file__).resolve().parents[2])
 _OURS = (_ROSMINI, *{sysconfig.get_path(kind) for kind in ("stdlib", "purelib", "platlib")}, "<frozen")
@@ -55,11 +61,15 @@ def _run_in_lane(node: Node, what: str, task: Callable[[], Any], budget: float) 
     waiter = node.waiter(f"{what} to return")
 
     def run() -> None:
+        watch = LoopWatch(what, int(budget * ITERATIONS_PER_SECOND))
+        watch.start()
         outcome: tuple[Any, Exception | None]
         try:
             outcome = (task(), None)
         except Exception as error:
             outcome = (None, error)
+        finally:
+            watch.stop()
         waiter.wake(outcome)
 
     lane = node.spawn(f"{node.name} {what}", run)
@@ -73,3 +83,55 @@ def _run_in_lane(node: Node, what: str, task: Callable[[], Any], budget: float) 
     if error is not None:
         raise error
     return result
+
+
+class LoopWatch:
+    """Counts loop iterations outside rosmini and installed packages, and raises `PluginFault` after `limit` of them.
+
+    It uses Python's trace function, so it does nothing while a debugger or a coverage tool is using that.
+    """
+
+    def __init__(self, what: str, limit: int) -> None:
+        self.what, self.limit, self.iterations = what, limit, 0
+        self._foreign: dict[str, bool] = {}
+
+    def start(self) -> None:
+        """Start counting."""
+        if sys.gettrace() is None:
+            sys.settrace(self)
+
+    def stop(self) -> None:
+        """Stop counting."""
+        if isinstance(sys.gettrace(), LoopWatch):
+            sys.settrace(None)
+
+    def __call__(self, frame: FrameType, event: str, _: Any) -> Callable[..., Any] | None:
+        """Decide whether to trace a new frame; this is a trace function for `sys.settrace`."""
+        file = frame.f_code.co_filename
+        foreign = self._foreign.get(file)
+        if foreign is None:
+            foreign = self._foreign[file] = not file.startswith(_OURS)
+        if not foreign or event != "call":
+            return None
+        return self._trace_lines(frame.f_lineno)
+
+    def _trace_lines(self, line: int) -> Callable[..., Any]:
+        last = line
+
+        def trace(frame: FrameType, event: str, _: Any) -> Callable[..., Any]:
+            nonlocal last
+            if event == "line":
+                if frame.f_lineno <= last:
+                    self._count_iteration(frame)
+                last = frame.f_lineno
+            return trace
+
+        return trace
+
+    def _count_iteration(self, frame: FrameType) -> None:
+        self.iterations += 1
+        if self.iterations > self.limit:
+            raise PluginFault(
+                f"{self.what} has not returned after {self.limit:,} loop iterations: check that the loop in "
+                f"line {frame.f_lineno} of {Path(frame.f_code.co_filename).name} ends"
+            )

@@ -1,5 +1,11 @@
+import sys
+
+import pytest
+
 from rosmini.navigation.move_base.plugin_calls import PluginFault, call
 from rosmini.navigation.nav_core import NoPath
+
+traced = pytest.mark.skipif(sys.gettrace() is not None, reason="whoever measures coverage has the trace function")
 
 
 class Mine:
@@ -19,6 +25,14 @@ class Mine:
 
     def raises(self):
         return list("ab")[2]
+
+    def spins(self):
+        while True:
+            pass
+
+    def recurses(self, n=0):
+        for _ in range(2):
+            self.recurses(n + 1) if n < 40 else None
 
     def sleeps(self, seconds):
         self.node.sleep(seconds)
@@ -43,6 +57,7 @@ def asked(node, method, *arguments, budget=2.0):
 def test_it_returns(node):
     assert asked(node, Mine(node).plan, 3) == 4
     assert asked(node, Mine(node).works_long) == 299_995
+    assert sys.gettrace() is None or "coverage" in sys.modules
 
 
 def test_its_own_failures_come_through(node):
@@ -53,6 +68,19 @@ def test_what_it_raises_is_said_with_its_place(node):
     error = asked(node, Mine(node).raises)
     assert isinstance(error, PluginFault)
     assert "the planner mine/Mine raised IndexError: list index out of range (test_plugin_calls.py, line" in str(error)
+
+
+@traced
+def test_a_loop_without_end_is_ended(node):
+    error = asked(node, Mine(node).spins, budget=0.2)
+    assert isinstance(error, PluginFault)
+    assert "has not returned after 200,000 loop iterations" in str(error)
+    assert sys.gettrace() is None
+
+
+@traced
+def test_so_is_a_loop_of_calls(node):
+    assert "loop iterations" in str(asked(node, Mine(node).recurses, budget=0.2))
 
 
 def test_it_may_block_within_its_budget(node):
