@@ -76,6 +76,9 @@ class LogoList:
         if self.weight > MAX_SIZE:
             raise LogoError(f"a list has more than {MAX_SIZE} members and letters")
 
+    def __repr__(self) -> str:
+        return show(self)
+
     def __len__(self) -> int:
         return len(self.items)
 

@@ -24,8 +24,8 @@ def window(name: str | None = None, graph: Graph | None = None) -> TurtleSim:
     >>> _ = rosrun("turtlesim", "turtlesim_node", graph=graph).instance()
     [INFO] [1000.000000]: Starting turtlesim with node name /turtlesim
     [INFO] [1000.000000]: Spawning turtle [turtle1] at x=[5.544445], y=[5.544445], theta=[0.000000]
-    >>> window(graph=graph)
-    <TurtleSim /turtlesim: turtle1>
+    >>> list(window(graph=graph).turtles)
+    ['turtle1']
 
     Raises `TurtleError` if there is no turtlesim of this name, none at all, or more than one.
     """
