@@ -1,9 +1,5 @@
 """Things as markers, and back; and a recorder that reads them."""
 
-from __future__ import annotations
-
-import math
-
 import numpy as np
 import pytest
 
@@ -155,9 +151,6 @@ def test_the_simulator_says_nothing_of_obstacles_unless_asked():
         assert "nobody publishes" in graph.who_publishes("/obstacles")
 
 
-# ---- recordings ----
-
-
 def moved(*poses):
     return Moved(THINGS[0], np.arange(len(poses), dtype=float), np.array(poses, dtype=float))
 
@@ -169,13 +162,6 @@ def test_a_thing_is_between_where_it_was_seen():
     assert thing.distance == pytest.approx(3.0)
     part = thing.window(0.5, 1.5)
     assert part.poses.tolist() == [[0.5, 0, 0], [1, 0, 0], [1, 1, 0]]
-
-
-def test_what_does_not_fit_is_refused():
-    with pytest.raises(RecordingError, match="crate"):
-        Moved(THINGS[0], np.array([0.0, 0.0]), np.zeros((2, 3)))
-    with pytest.raises(RecordingError, match="times"):
-        Moved(THINGS[0], np.array([0.0]), np.zeros((2, 3)))
 
 
 def still(name, **more):
@@ -197,9 +183,3 @@ def test_a_window_is_one_of_all_robots_and_things():
 def test_a_robot_that_was_not_recorded_is_named():
     with pytest.raises(RecordingError, match=r"no robot 'c' was recorded, but 'a', 'b'"):
         still("a", others=(still("b"),)).of("c")
-
-
-def test_a_walker_in_a_recording_stands_where_it_was():
-    thing = Moved(WALKING.obstacles[0], np.array([0.0, 1.0]), np.array([(2, 2, 0), (2, 1.5, -math.pi / 2)]))
-    [walker] = [o for o in still("a", things=(thing,)).world_at(1.0).obstacles if o.name == "walker"]
-    assert walker.pose == pytest.approx((2, 1.5, -math.pi / 2))

@@ -1,10 +1,6 @@
 """What was saved is restored: the simulator goes on then as it did, message by message."""
 
-from __future__ import annotations
-
 import pickle
-from collections.abc import Iterator
-from typing import Any
 
 import pytest
 
@@ -20,7 +16,7 @@ SECOND = 1_000_000_000
 class Bench:
     """A simulator with two robots, and a node that hears all and drives."""
 
-    def __init__(self, graph: Graph, world: str = "arena") -> None:
+    def __init__(self, graph, world="arena"):
         self.graph = graph
         self.robots = ("tb3_0", "tb3_1")
         node = graph.node("simulator")
@@ -28,7 +24,7 @@ class Bench:
             node.set_param(f"~{name}", value)
         self.sim = Simulator(node, world=world)
         self.node = graph.node("ears")
-        self.heard: list[tuple[str, bytes]] = []
+        self.heard = []
         self._drivers = [self.node.publisher(f"{name}/cmd_vel", Twist) for name in self.robots]
         for topic, named in graph.master.getPublishedTopics("/ears", "")[2]:
             if topic not in ("/rosout", "/rosout_agg") and "parameter" not in topic:
@@ -36,8 +32,8 @@ class Bench:
         for driver in self._drivers:
             driver.wait_for_subscribers()
 
-    def _ear(self, topic: str) -> Any:
-        def hear(message: Any) -> None:
+    def _ear(self, topic):
+        def hear(message):
             told = type(message)._thaw_numpy(type(message)._freeze(message))
             parts = [told, *getattr(told, "transforms", ()), *getattr(told, "markers", ())]
             for header in (each.header for each in parts if hasattr(each, "header")):
@@ -47,7 +43,7 @@ class Bench:
 
         return hear
 
-    def drive(self, seconds: float) -> None:
+    def drive(self, seconds):
         """Drive both robots, each its own way."""
         for i, (v, w) in enumerate([(0.2, 0.3), (-0.1, 1.0), (0.22, 0.0), (0.1, -2.0)]):
             for k, driver in enumerate(self._drivers):
@@ -56,11 +52,11 @@ class Bench:
                 driver.publish(message)
             self.graph.run(seconds / 4 + 0.01 * i)
 
-    def to(self, time_ns: int) -> None:
+    def to(self, time_ns):
         """Let the graph go on until exactly then."""
         self.graph.scheduler.run(time_ns, None)
 
-    def goes_on(self) -> list[tuple[str, bytes]]:
+    def goes_on(self):
         """What is heard while both drive on."""
         self.heard = []
         self.drive(1.6)
@@ -69,12 +65,12 @@ class Bench:
 
 
 @pytest.fixture
-def graph() -> Iterator[Graph]:
+def graph():
     with Graph(seed=3) as made:
         yield made
 
 
-def test_every_message_is_the_same_after_restoring(graph: Graph) -> None:
+def test_every_message_is_the_same_after_restoring(graph):
     there = Bench(graph)
     there.drive(0.8)
     graph.run(0.1421)  # no message is on its way then
@@ -93,7 +89,7 @@ def test_every_message_is_the_same_after_restoring(graph: Graph) -> None:
         assert again.goes_on() == first
 
 
-def test_what_is_on_its_way_when_it_is_saved_belongs_to_the_graph(graph: Graph) -> None:
+def test_what_is_on_its_way_when_it_is_saved_belongs_to_the_graph(graph):
     there = Bench(graph)
     start = graph.scheduler.now_ns() - round(there.sim.host.now * SECOND)
     there.drive(0.9)
@@ -118,7 +114,7 @@ def test_what_is_on_its_way_when_it_is_saved_belongs_to_the_graph(graph: Graph) 
     assert there.heard == first
 
 
-def test_what_is_no_state_of_it_is_refused(graph: Graph) -> None:
+def test_what_is_no_state_of_it_is_refused(graph):
     there = Bench(graph)
     with Graph() as elsewhere:
         other = Bench(elsewhere, "empty").sim.save()

@@ -1,11 +1,8 @@
 """Several robots in one simulator: names, spawning, deleting, saving and restoring; and TurtleBot3's board."""
 
-from __future__ import annotations
-
 import math
 from collections import defaultdict
 from dataclasses import replace
-from typing import Any
 
 import pytest
 import yaml
@@ -18,7 +15,7 @@ from rosmini.msgs import message_class
 from rosmini.sim.engine import RobotGone
 from rosmini.sim.models import BURGER, WAFFLE, UnknownModel
 from rosmini.sim.simulator import Simulator
-from rosmini.sim.world import Box, Cylinder, Obstacle, World, WorldError
+from rosmini.sim.world import Cylinder, Obstacle, World, WorldError
 
 Twist = message_class("geometry_msgs/Twist")
 TOPICS = {
@@ -30,7 +27,7 @@ TOPICS = {
 }
 
 
-def start(graph: Graph, world: World | str = "empty", **parameters: Any) -> Simulator:
+def start(graph, world="empty", **parameters):
     node = graph.node("simulator")
     for name, value in {"noise": 0.0, "cmd_vel_timeout": 0.0, **parameters}.items():
         node.set_param("~" + name, value)
@@ -40,19 +37,19 @@ def start(graph: Graph, world: World | str = "empty", **parameters: Any) -> Simu
 class Ears:
     """Hears robots, and commands them."""
 
-    def __init__(self, graph: Graph, *robots: str, name: str = "ears", tf: bool = True, topics: Any = TOPICS) -> None:
+    def __init__(self, graph, *robots, name="ears", tf=True, topics=TOPICS):
         self.graph = graph
         self.node = graph.node(name)
-        self.heard: dict[str, list[Any]] = defaultdict(list)
+        self.heard = defaultdict(list)
         for robot in robots:
             for topic in topics:
                 full = f"{robot}/{topic}" if robot else topic
                 self.node.subscriber(full, message_class(TOPICS[topic]), self.heard[full].append)
         if tf:
             self.node.subscriber("/tf", message_class("tf2_msgs/TFMessage"), self.heard["tf"].append)
-        self.publishers: dict[str, Any] = {}
+        self.publishers = {}
 
-    def command(self, robot: str, v: float, w: float = 0.0) -> None:
+    def command(self, robot, v, w=0.0):
         topic = f"{robot}/cmd_vel" if robot else "cmd_vel"
         if topic not in self.publishers:
             self.publishers[topic] = self.node.publisher(topic, Twist, queue_size=1)
@@ -61,7 +58,7 @@ class Ears:
         message.linear.x, message.angular.z = v, w
         self.publishers[topic].publish(message)
 
-    def bytes(self) -> dict[str, list[bytes]]:
+    def bytes(self):
         return {topic: [type(m)._encode(m) for m in messages] for topic, messages in self.heard.items()}
 
 
@@ -89,15 +86,6 @@ def test_a_number_of_robots_has_a_namespace_and_a_prefix_each(graph):
         assert ears.heard[f"tb3_{i}/imu"][-1].header.frame_id == f"tb3_{i}/imu_link"
     places = [simulator.truth(f"tb3_{i}")[:2] for i in range(3)]
     assert min(math.dist(a, b) for a in places for b in places if a != b) > 0.2
-
-
-def test_one_message_on_tf_tells_of_all_robots(graph):
-    start(graph, robots=3)
-    ears = Ears(graph)
-    graph.run(0.5)
-    frames = [(t.header.frame_id, t.child_frame_id) for t in ears.heard["tf"][-1].transforms]
-    assert frames == [(f"tb3_{i}/odom", f"tb3_{i}/base_footprint") for i in range(3)]
-    assert len(ears.heard["tf"]) == pytest.approx(15, abs=1)
 
 
 def test_robots_are_told_one_by_one(graph):
@@ -145,13 +133,6 @@ def test_one_robot_may_have_a_prefix(graph):
     assert transform.child_frame_id == "tb3/base_footprint"
 
 
-def test_the_environment_chooses_the_model(graph, monkeypatch):
-    monkeypatch.setenv("TURTLEBOT3_MODEL", "waffle_pi")
-    simulator = start(graph)
-    assert simulator.model.name == "waffle_pi"
-    assert simulator.spawn("other", pose=(1.0, 1.0, 0.0)).model.name == "waffle_pi"
-
-
 # -- coming and going ------------------------------------------------------------------------------------------------
 
 
@@ -170,19 +151,6 @@ def test_a_robot_comes_while_the_others_drive(graph):
     graph.run(1.0)
     assert simulator.truth("late")[0] == pytest.approx(3.0 + 0.18 * math.cos(1.0), abs=2e-3)
     assert simulator.truth()[0] > 0.25
-
-
-def test_they_see_and_push_one_another(graph):
-    simulator = start(graph)
-    simulator.spawn("ahead", pose=(0.6, 0.0, 0.0))
-    ears = Ears(graph, "")
-    graph.run(0.5)
-    seen = simulator.last_scan().ranges[0]
-    assert 0.45 < seen < 0.58  # from laser to laser it is 0.6 m
-    assert simulator.last_scan("ahead").ranges[180] == pytest.approx(seen, abs=0.05)
-    ears.command("", 0.2)
-    graph.run(5.0)
-    assert simulator.truth("ahead")[0] > 0.7
 
 
 def test_without_a_place_it_finds_one(graph):
@@ -266,7 +234,7 @@ def test_errors_of_spawning_say_what_to_do_and_change_nothing(graph):
 
 
 def test_two_runs_with_coming_and_going_are_equal_to_the_last_byte():
-    def run() -> dict[str, list[bytes]]:
+    def run():
         with Graph(seed=7) as graph:
             simulator = start(graph, world="room", noise=1.0, robots=3)
             ears = Ears(graph, "tb3_0", "tb3_1", "tb3_2", "late")
@@ -296,21 +264,10 @@ def test_robots_without_sensors_or_with_other_drives(graph):
         simulator.spawn("rock", replace(BURGER, name="rock", drive=None), (2.0, 0.0, 0.0))
 
 
-def test_what_is_put_into_the_world_is_in_it(graph):
-    simulator = start(graph)
-    simulator.engine.insert(Obstacle("new", Box(0.2, 2.0), (1.0, 0.0, 0.0)))
-    graph.run(0.5)
-    assert simulator.last_scan().ranges[0] == pytest.approx(0.932, abs=1e-6)
-    assert [obstacle.name for obstacle in simulator.world.obstacles] == ["new"]
-
-
-# -- commands --------------------------------------------------------------------------------------------------------
-
-
 # -- saving and restoring --------------------------------------------------------------------------------------------
 
 
-def drive(graph: Graph, ears: Ears, robots: tuple[str, ...]) -> None:
+def drive(graph, ears, robots):
     for i, (v, w) in enumerate([(0.2, 0.3), (-0.1, 1.0), (0.22, 0.0), (0.1, -2.0)]):
         for k, robot in enumerate(robots):
             ears.command(robot, v, w + 0.1 * k)
@@ -336,32 +293,13 @@ def test_robots_come_and_go_with_the_state(graph):
     assert len(ears.heard["old/odom"]) >= 14
 
 
-def test_a_state_of_another_world_is_refused(graph):
-    state = start(graph).save()
-    with Graph() as other:
-        simulator = start(other, world="arena")
-        with pytest.raises(RosminiError, match="state of the world 'empty' cannot be restored in the world 'arena'"):
-            simulator.restore(state)
-
-
-def test_reset_puts_all_back(graph):
-    simulator = start(graph, robots=2)
-    starts = [simulator.truth(name) for name in simulator.robots]
-    ears = Ears(graph)
-    drive(graph, ears, ("tb3_0", "tb3_1"))
-    simulator.reset()
-    assert [simulator.truth(name) for name in simulator.robots] == starts
-    graph.run(0.1)
-    assert [robot.odometry for robot in simulator.robots.values()] == [(0.0, 0.0, 0.0)] * 2
-
-
 # -- the board -------------------------------------------------------------------------------------------------------
 
 
 class Board(Ears):
     """Hears what the board tells."""
 
-    def __init__(self, graph: Graph, **parameters: Any) -> None:
+    def __init__(self, graph, **parameters):
         self.simulator = start(graph, board=True, **parameters)
         super().__init__(graph, "")
         for topic, kind in (
@@ -386,16 +324,6 @@ def test_the_board_tells_its_state_at_its_rate(graph):
     assert 12.0 < battery.voltage < 12.6
     assert battery.current < 0
     assert battery.design_capacity == pytest.approx(1.8)
-
-
-def test_encoders_are_told_in_ticks(graph):
-    board = Board(graph)
-    board.command("", 0.1)
-    graph.run(3.0)
-    state = board.heard["sensor_state"][-1]
-    way = board.simulator.truth()[0]
-    assert state.left_encoder == state.right_encoder
-    assert state.left_encoder == pytest.approx(way / (2 * math.pi * 0.033) * 4096, abs=80)
 
 
 def test_a_wall_presses_the_bumper(graph):
@@ -453,32 +381,10 @@ def test_a_battery_may_begin_half_empty(graph):
         start(other, battery=1.5)
 
 
-def test_driving_drains_more_than_standing():
-    def left(v: float) -> float:
-        with Graph() as graph:
-            simulator = start(graph, board=True)
-            ears = Ears(graph, tf=False)
-            ears.command("", v)
-            graph.run(30.0)
-            battery = simulator.robot().battery
-            assert battery is not None
-            return battery.battery.level
-
-    assert left(0.22) < left(0.0) < 1.0
-
-
 def test_without_the_board_its_topics_are_not_there(graph):
     start(graph)
     names = {name for name, _ in graph.master.getTopicTypes("/test")[2]}
     assert not names & {"/sensor_state", "/battery_state", "/motor_power", "/reset"}
-
-
-def test_models_and_poses_of_spawned_robots_stay(graph):
-    simulator = start(graph)
-    simulator.spawn("w", WAFFLE, (2.0, 0.0, 0.0), namespace="/other/ns", tf_prefix="")
-    robot = simulator.robot("w")
-    assert (robot.topic("scan"), robot.frame("base_scan")) == ("/other/ns/scan", "base_scan")
-    assert simulator.robot().model is BURGER
 
 
 # -- launch files ----------------------------------------------------------------------------------------------------

@@ -1,19 +1,11 @@
 """What every simulation can do: the same contract for the simulator, Stage and Gazebo's server."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
-
 import pytest
 
-from rosmini import Graph
 from rosmini.core.errors import RosminiError
 from rosmini.msgs import message_class
 from rosmini.sim.engine import RobotGone
 from rosmini.sim.gazebo import GazeboServer
-from rosmini.sim.simulation import Simulation
 from rosmini.sim.simulator import Simulator
 from rosmini.sim.stage.node import Stageros
 from rosmini.sim.world import Box, Obstacle, World, WorldError
@@ -25,17 +17,17 @@ model( name "crate" gripper_return 1 mass 2 size [0.4 0.4 0.4] pose [1 0 0 0] )
 """
 
 
-def simulator(graph: Graph, _: Path) -> Simulator:
+def simulator(graph, _):
     crate = Obstacle("crate", Box(0.4, 0.4), (1.0, 0.0, 0.0), mass=2.0)
     return Simulator(graph.node("sim"), world=World("yard", (crate,), starts=((0.0, 0.0, 0.0),)))
 
 
-def stageros(graph: Graph, folder: Path) -> Stageros:
+def stageros(graph, folder):
     (folder / "yard.world").write_text(STAGE, encoding="utf-8")
     return Stageros(graph.node("sim"), str(folder / "yard.world"))
 
 
-def gzserver(graph: Graph, _: Path) -> GazeboServer:
+def gzserver(graph, _):
     server = GazeboServer(graph.node("sim"), "empty")
     server.spawn(urdf(), "robot")
     server.spawn(box(), "crate", (1.0, 0.0, 0.0))
@@ -43,12 +35,12 @@ def gzserver(graph: Graph, _: Path) -> GazeboServer:
 
 
 @pytest.fixture(params=[simulator, stageros, gzserver])
-def sim(request: pytest.FixtureRequest, graph: Graph, tmp_path: Path) -> Simulation:
-    make: Callable[[Graph, Path], Simulation] = request.param
+def sim(request, graph, tmp_path):
+    make = request.param
     return make(graph, tmp_path)
 
 
-def drive(graph: Graph, v: float, seconds: float) -> None:
+def drive(graph, v, seconds):
     """Repeat a command, as Stage and TurtleBot3 want it."""
     node = graph.nodes.get("/driver") or graph.node("driver")
     publisher = node.publisher("/cmd_vel", message_class("geometry_msgs/Twist"))
@@ -60,8 +52,8 @@ def drive(graph: Graph, v: float, seconds: float) -> None:
         graph.run(0.1)
 
 
-def test_time_is_paused_stepped_and_goes_on(sim: Simulation, graph: Graph) -> None:
-    heard: list[bool] = []
+def test_time_is_paused_stepped_and_goes_on(sim, graph):
+    heard = []
     sim.host.on_time.append(lambda: heard.append(sim.paused))
     graph.run(0.5)
     assert sim.now == pytest.approx(0.5)
@@ -82,7 +74,7 @@ def test_time_is_paused_stepped_and_goes_on(sim: Simulation, graph: Graph) -> No
             sim.step(seconds)
 
 
-def test_time_goes_faster(sim: Simulation, graph: Graph) -> None:
+def test_time_goes_faster(sim, graph):
     assert sim.speed == 1.0
     sim.speed = 2.0
     graph.run(1.0)
@@ -91,7 +83,7 @@ def test_time_goes_faster(sim: Simulation, graph: Graph) -> None:
         sim.speed = -1.0
 
 
-def test_robots_and_things_are_where_they_were_put(sim: Simulation, graph: Graph) -> None:
+def test_robots_and_things_are_where_they_were_put(sim, graph):
     sim.place((0.0, 1.0, 0.5))
     assert sim.truth() == pytest.approx((0.0, 1.0, 0.5))
     sim.drag("crate", (2.0, -1.0, 0.25))
@@ -109,8 +101,8 @@ def test_robots_and_things_are_where_they_were_put(sim: Simulation, graph: Graph
     assert sim.truth("crate") == pytest.approx((1.0, 0.0, 0.0))
 
 
-def test_a_robot_moves_sees_and_reckons(sim: Simulation, graph: Graph) -> None:
-    scans: list[Any] = []
+def test_a_robot_moves_sees_and_reckons(sim, graph):
+    scans = []
     topic = "/base_scan" if isinstance(sim, Stageros) else "/scan"
     graph.node("eyes").subscriber(topic, message_class("sensor_msgs/LaserScan"), scans.append)
     drive(graph, 0.2, 1.0)
@@ -123,13 +115,13 @@ def test_a_robot_moves_sees_and_reckons(sim: Simulation, graph: Graph) -> None:
     assert 0.0 < sim.scan_pose[0] <= moved + 1e-9
 
 
-def test_it_is_shown(sim: Simulation) -> None:
+def test_it_is_shown(sim):
     for shown in (sim.show(), sim.show3d(), sim.view()):
         assert shown.text
     assert "cmd_vel" in sim.pad().topic
 
 
-def test_a_robot_is_removed_where_the_program_can(sim: Simulation, graph: Graph) -> None:
+def test_a_robot_is_removed_where_the_program_can(sim, graph):
     if isinstance(sim, Stageros):
         with pytest.raises(RosminiError, match="its world file says"):
             sim.delete("robot")
@@ -142,7 +134,7 @@ def test_a_robot_is_removed_where_the_program_can(sim: Simulation, graph: Graph)
     assert "cmd_vel" not in str(graph.master.getSystemState("/me")[2][1])
 
 
-def test_after_the_nodes_end_everything_says_so(sim: Simulation) -> None:
+def test_after_the_nodes_end_everything_says_so(sim):
     sim.node.shutdown("enough")
     for action in (sim.truth, sim.pause, sim.reset, sim.save, sim.last_scan):
         with pytest.raises(RobotGone, match="the node /sim was shut down"):

@@ -1,7 +1,5 @@
 """Worlds: what is possible, what is said of what is not, and what has room where."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -9,7 +7,7 @@ import numpy as np
 import pytest
 
 from rosmini.core.errors import RosminiError
-from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World, WorldError
+from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, Sphere, World, WorldError
 
 FOOTPRINT = ((-0.1, -0.08), (0.04, -0.08), (0.04, 0.08), (-0.1, 0.08))
 NAN = math.nan
@@ -38,6 +36,15 @@ NAN = math.nan
         ({"mass": 0}, "mass is 0"),
         ({"mass": math.inf}, "mass is inf"),
         ({"colour": "gray"}, "did you mean grey"),
+        ({"bottom": 1.5, "height": 1.0}, "top must be above the bottom"),
+        ({"bottom": NAN}, "bottom is nan"),
+        ({"shape": Sphere(0.0)}, "shape.radius is 0.0"),
+        ({"shape": Compound(())}, "a compound has one part at least"),
+        ({"shape": Compound(((Cylinder(-1.0), (0, 0, 0)),))}, r"shape.parts\[0\]: shape.radius is -1.0"),
+        ({"colour": "#gg0000"}, "six digits"),
+        ({"restitution": 1.5}, "restitution is 1.5"),
+        ({"drag": -0.1}, "drag is -0.1"),
+        ({"motion": "walk"}, "it must be a Walk or a Door"),
     ],
 )
 def test_an_impossible_obstacle_is_refused_by_name_and_field(changes, part):
@@ -53,11 +60,6 @@ def test_an_obstacle_and_a_world_need_a_name(name):
         Obstacle(name, Box(1, 1))
     with pytest.raises(WorldError, match="name"):
         World(name)
-
-
-def test_corners_that_are_no_pairs_are_refused():
-    with pytest.raises(WorldError, match="pairs"):
-        Polygon((1, 2, 3))
 
 
 BOX = Obstacle("box", Box(1.0, 0.5), (2.0, 0.0, math.pi / 2))
@@ -135,6 +137,14 @@ def test_what_is_in_the_way_is_named(footprint):
     assert world.blocked((4.8, 0.5, 0), footprint) is None
     with pytest.raises(WorldError, match="finite"):
         world.blocked((NAN, 0, 0), footprint)
+
+
+@pytest.mark.parametrize("pose", [(0.0, 0.0, 0.0), (0.3, -0.2, 1.0)])
+def test_what_has_the_same_centre_is_in_the_way(pose):
+    square = ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5))
+    for shape in (Box(1.0, 1.0), Box(0.2, 0.2), Box(4.0, 4.0), Cylinder(0.1), Cylinder(3.0)):
+        world = World("w", (Obstacle("one", shape, pose),))
+        assert world.blocked(pose, square) == world.blocked(pose, 0.3) == "the obstacle 'one'"
 
 
 def test_a_footprint_turns_with_its_pose():

@@ -1,7 +1,5 @@
 """What all sensors share, shown with one that is a single small file."""
 
-from __future__ import annotations
-
 import pickle
 
 import pytest

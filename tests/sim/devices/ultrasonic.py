@@ -1,9 +1,6 @@
 """A new sensor in one file: an ultrasonic ranger, which nothing in rosmini knows of."""
 
-from __future__ import annotations
-
 import math
-from typing import Any
 
 import numpy as np
 
@@ -23,17 +20,17 @@ class Ultrasonic(Sensor):
     varying = ("range",)
     saved = ("rng",)
 
-    def __init__(self, *args: Any, noise: float = 0.01, **options: Any) -> None:
+    def __init__(self, *args, noise=0.01, **options):
         super().__init__(*args, **options)
         self.noise, self.rng = noise, self.host.rng(self.name)
 
-    def describe(self, message: Any) -> None:
+    def describe(self, message):
         """Fill in what stays."""
         message.radiation_type = message.ULTRASOUND
         message.field_of_view = CONE.angle_max - CONE.angle_min
         message.min_range, message.max_range = CONE.range_min, CONE.range_max
 
-    def sample(self, _: int) -> tuple[float] | None:
+    def sample(self, _):
         """Return the nearest range, or nothing while there is no echo."""
         nearest = float(np.min(self.host.engine.scan(self.robot.name, lidar=CONE)))
         return (nearest + self.noise * self.rng.standard_normal(),) if math.isfinite(nearest) else None

@@ -1,7 +1,5 @@
 """What is where and in whose way, how much room there is, and crowds that go through nothing."""
 
-from __future__ import annotations
-
 import gc
 import math
 
@@ -10,25 +8,15 @@ import pytest
 
 from rosmini.core.geometry import polygons
 from rosmini.sim.engine import Engine
-from rosmini.sim.engine.stepper import VIEW
 from rosmini.sim.geometry.overlaps import Outline, Overlaps
 from rosmini.sim.models import BURGER, WAFFLE
 from rosmini.sim.motion import Walk
 from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World, WorldError
 
 from ...conftest import nightly
+from .pens import generator, pen
 
 ANGLE = Polygon(((0.0, 0.0), (0.4, 0.0), (0.4, 0.1), (0.1, 0.1), (0.1, 0.4), (0.0, 0.4)))
-
-
-def generator(name: str) -> np.random.Generator:
-    return np.random.default_rng(sum(name.encode()))
-
-
-def pen(half: float, *obstacles: Obstacle) -> World:
-    h = half
-    sides = np.array([(-h, -h, h, -h), (h, -h, h, h), (h, h, -h, h), (-h, h, -h, -h)])
-    return World("pen", obstacles, walls=sides)
 
 
 PILLARS = (
@@ -42,7 +30,7 @@ CRATES = (
 )
 
 
-def crowded(world: World, count: int, seed: int) -> Engine:
+def crowded(world, count, seed):
     rng = np.random.default_rng(seed)
     half = float(world.walls.max())
     engine = Engine(world, generator)
@@ -56,52 +44,16 @@ def crowded(world: World, count: int, seed: int) -> Engine:
     return engine
 
 
-def drive(engine: Engine, rng: np.random.Generator, seconds: float) -> None:
+def drive(engine, rng, seconds):
     for name, robot in engine.robots.items():
         fast = robot.model.max_linear
         engine.command(name, *rng.uniform((-fast / 2, -1.5), (fast, 1.5)).tolist())
     engine.advance(engine.now + seconds)
 
 
-# -- room and obstructions -------------------------------------------------------------------------------------------
-
-
-def there(*obstacles: Obstacle, walls: tuple = ()) -> Engine:
+def there(*obstacles, walls=()):
     world = World("test", obstacles, np.array(walls, dtype=float).reshape(-1, 4))
     return Engine(world, generator, noise=0.0)
-
-
-def room(engine: Engine, name: str) -> float:
-    """How far a robot finds that it can go."""
-    contacts = engine.contacts
-    scene = contacts.scene(contacts.bodies.values(), VIEW)
-    return scene.clearances([scene.index[name]], VIEW)[scene.index[name]]
-
-
-@pytest.mark.parametrize(
-    ("made", "expected"),
-    [
-        (there(walls=((0.3, -1.0, 0.3, 1.0),)), 0.3 - 0.041),
-        (there(Obstacle("disc", Cylinder(0.1), (0.4, 0.0, 0.0))), 0.3 - 0.041),
-        (there(Obstacle("box", Box(0.2, 0.2), (0.4, 0.0, 0.0))), 0.3 - 0.041),
-        (there(Obstacle("crate", Box(0.2, 0.2), (0.4, 0.0, 0.0), mass=1.0)), 0.3 - 0.041),
-        (there(Obstacle("turned", Box(0.2, 0.2), (0.4, 0.0, math.pi / 4))), 0.4 - 0.1 * 2**0.5 - 0.041),
-        (there(walls=((0.341, 0.405, 9.0, 9.0),)), 0.3 * 2**0.5),
-        (there(walls=((9.0, -1.0, 9.0, 1.0),)), VIEW),
-        (there(), VIEW),
-    ],
-)
-def test_the_room_around_a_robot_is_its_distance_from_what_is_nearest(made, expected):
-    made.add("burger", BURGER, (0.0, 0.0, 0.0))
-    assert room(made, "burger") == pytest.approx(expected, abs=1e-6)
-
-
-def test_of_the_room_between_two_robots_each_has_half():
-    made = there()
-    made.add("one", BURGER, (0.0, 0.0, 0.0))
-    made.add("two", BURGER, (0.4, 0.0, math.pi))
-    for name in ("one", "two"):
-        assert room(made, name) == pytest.approx((0.4 - 0.082) / 2, abs=1e-6)
 
 
 def test_an_outline_with_an_inner_corner_keeps_its_shape_and_its_mass():
@@ -130,22 +82,10 @@ def test_a_thing_without_symmetry_slides_and_turns_about_its_centre_of_mass():
     assert middle == pytest.approx((1.0 + c + 0.5**2 / 2 / 0.5 / 9.80665, 1.0 + c), abs=1e-3)
 
 
-def test_a_removed_robot_is_in_nobodys_way():
-    made = there()
-    made.add("one", BURGER, (0.0, 0.0, 0.0))
-    assert made.obstruction(BURGER, (0.0, 0.0, 0.0)) == "the robot 'one'"
-    assert made.obstruction(BURGER, (0.0, 0.0, 0.0), "one") is None
-    made.remove("one")
-    assert made.obstruction(BURGER, (0.0, 0.0, 0.0)) is None
-
-
-# -- what comes and goes ---------------------------------------------------------------------------------------------
-
-
-def entries(engine: Engine) -> int:
+def entries(engine):
     """How many objects hang on an engine; of shared ones, as of classes, nothing is counted."""
-    seen: set[int] = set()
-    todo: list[object] = [engine]
+    seen = set()
+    todo = [engine]
     while todo:
         each = todo.pop()
         if id(each) not in seen and not isinstance(each, (type, type(gc), type(entries))):
@@ -159,7 +99,7 @@ def test_two_thousand_spawns_and_deletions_leave_nothing_behind():
     engine.add("burger", BURGER, (0.0, 0.0, 0.0))
     engine.command("burger", 0.05, 0.3)
 
-    def come_and_go(number: int) -> None:
+    def come_and_go(number):
         at = (2.0 + 0.3 * (number % 7), 1.0 + number % 5, 0.0)
         kinds = (
             Obstacle(f"box {number}", Box(0.2, 0.2), at),
@@ -186,10 +126,7 @@ def test_two_thousand_spawns_and_deletions_leave_nothing_behind():
     assert len(engine.world.obstacles) == 0
 
 
-# -- crowds ----------------------------------------------------------------------------------------------------------
-
-
-def overlap(one: Outline, other: Outline) -> bool:
+def overlap(one, other):
     there = Overlaps()
     there.insert("other", other)
     return bool(there.find(one))

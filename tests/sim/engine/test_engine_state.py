@@ -1,12 +1,9 @@
 """A state that is taken and brought back: the same happens again, to the last bit."""
 
-from __future__ import annotations
-
 import pickle
 from dataclasses import replace
 
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -30,7 +27,7 @@ YARD = World(
 )
 
 
-def make() -> Engine:
+def make():
     engine = Engine(YARD, lambda name: np.random.default_rng(sum(name.encode())))
     engine.add("one", BURGER, (0.2, 0.0, 0.0))
     engine.add("two", WAFFLE, (-0.9, 0.3, 0.0))
@@ -39,7 +36,7 @@ def make() -> Engine:
     return engine
 
 
-def drive(engine: Engine, seed: int, seconds: float, look: float = 1 / 10) -> None:
+def drive(engine, seed, seconds, look=1 / 10):
     rng = np.random.default_rng(seed)
     end = engine.now + seconds
     while engine.now < end - 1e-9:
@@ -52,7 +49,7 @@ def drive(engine: Engine, seed: int, seconds: float, look: float = 1 / 10) -> No
             engine.advance(min(engine.now + look, until))
 
 
-def picture(engine: Engine) -> tuple:
+def picture(engine):
     robots = [(r.name, r.pose, r.velocity, r.ticks, r.touching) for r in engine.robots.values()]
     scans = [engine.scan(name).tolist() for name in engine.robots]
     return (engine.now, robots, [(o.name, o.pose) for o in engine.obstacles()], scans)
@@ -111,17 +108,3 @@ def test_errors_and_settings_come_back_too():
     assert [engine.robots["one"].wheels.left] == wheels
     engine.advance(5.0)
     assert engine.robots["one"].wheels.left == drawn
-
-
-@pytest.mark.parametrize("name", ["crate", "trolley"])
-def test_a_thing_that_slides_slides_on(name):
-    engine = make()
-    engine.put(name, (-0.2, -0.2, 0.0), (0.3, 0.1, 2.0))
-    engine.advance(0.05)
-    state = engine.state()
-    engine.advance(2.0)
-    rest = engine.pose(name)
-    engine.restore(state)
-    assert np.hypot(*engine.velocity(name)[:2]) > 0.01
-    engine.advance(2.0)
-    assert engine.pose(name) == rest

@@ -1,7 +1,5 @@
 """How two outlines overlap, how a body is brought out of another, and how far apart they are."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -9,14 +7,14 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from rosmini.sim.engine import kernels, outlines
+from rosmini.sim.engine import outlines
 
 pymunk = pytest.importorskip("pymunk")
 
 from rosmini.sim.models import BURGER, WAFFLE
 
 
-def piece_of(shape) -> tuple[np.ndarray, float]:
+def piece_of(shape):
     """The outline of one of pymunk's shapes in its body's frame."""
     if isinstance(shape, pymunk.Circle):
         return np.array([shape.offset]), shape.radius
@@ -25,12 +23,12 @@ def piece_of(shape) -> tuple[np.ndarray, float]:
     return np.array(shape.get_vertices()), shape.radius
 
 
-def put(body, pose) -> None:
+def put(body, pose):
     body.angle = pose[2]
     body.position = pose[:2]
 
 
-def depths_of(contacts) -> list[float]:
+def depths_of(contacts):
     """How deep two shapes overlap at each point of their contact; pymunk's own `distance` has either sign."""
     nx, ny = contacts.normal
     pairs = ((point.point_a, point.point_b) for point in contacts.points)
@@ -40,7 +38,7 @@ def depths_of(contacts) -> list[float]:
 KINDS = ("disc", "robot", "triangle", "wall")
 
 
-def shape_of(kind: str) -> tuple:
+def shape_of(kind):
     """Something that a robot can bump into; its body goes with it, for a shape alone keeps none."""
     body = pymunk.Body(1.0, 1.0)
     if kind == "disc":
@@ -56,14 +54,11 @@ places = st.floats(-0.4, 0.4)
 headings = st.floats(-math.pi, math.pi)
 
 
-def placed(shape, pose: tuple[float, float, float]) -> tuple[np.ndarray, float]:
+def placed(shape, pose):
     """The outline of a shape there."""
     outline, radius = piece_of(shape)
     c, s = math.cos(pose[2]), math.sin(pose[2])
     return outline @ np.array([[c, s], [-s, c]]) + pose[:2], radius
-
-
-# -- two outlines ----------------------------------------------------------------------------------------------------
 
 
 @given(st.sampled_from(KINDS), places, places, headings, headings)
@@ -92,74 +87,3 @@ def test_two_outlines_overlap_where_and_as_deep_as_pymunk_says(kind, x, y, theta
             its.reverse()
         for one, other in zip(mine, its, strict=True):
             assert one == pytest.approx(other, abs=1e-5)
-
-
-@given(st.sampled_from(KINDS), places, places, headings, headings)
-def test_two_outlines_are_as_far_apart_as_pymunk_says(kind, x, y, theta, other_theta):
-    body, shape = shape_of(kind)
-    put(body, (x, y, other_theta))
-    wide = pymunk.Poly(pymunk.Body(1.0, 1.0), BURGER.footprint, radius=0.5)
-    put(wide.body, (0.0, 0.0, theta))
-    space = pymunk.Space()
-    space.add(body, shape)
-    expected = [0.5 - max(depths_of(hit.contact_point_set)) for hit in space.shape_query(wide)]
-    a, _ = placed(wide, (0.0, 0.0, theta))
-    b, radius = placed(shape, (x, y, other_theta))
-    found = outlines.gap(a, 0, len(a), 0.0, b, 0, len(b), radius)
-    if expected:
-        assert found < 0.5 + 1e-9
-        assert found == pytest.approx(expected[0], abs=1e-7)
-    else:
-        assert found > 0.5 - 1e-9
-
-
-@given(places, places, st.floats(0.01, 0.3), st.floats(0.01, 0.3))
-def test_two_discs_overlap_along_the_line_of_their_middles(x, y, r, q):
-    assume(math.hypot(x, y) > 1e-3)
-    a, b = np.zeros((1, 2)), np.array([[x, y]])
-    count, nx, ny, depth, px, py, *_ = outlines.contact(a, 0, 1, r, b, 0, 1, q, 0.0)
-    expected = r + q - math.hypot(x, y)
-    assert bool(count) == (expected > 0)
-    assert outlines.gap(a, 0, 1, r, b, 0, 1, q) == pytest.approx(-expected)
-    if count:
-        assert depth == pytest.approx(expected)
-        assert (nx, ny) == pytest.approx((x / math.hypot(x, y), y / math.hypot(x, y)))
-        assert (px, py) == pytest.approx((r * nx, r * ny))
-
-
-def test_robots_that_coincide_are_told_how_to_part():
-    a = np.array(BURGER.footprint)
-    count, nx, ny, depth, *_ = outlines.contact(a, 0, 4, 0.0, a.copy(), 0, 4, 0.0, 0.0)
-    assert count == 2
-    assert math.hypot(nx, ny) == pytest.approx(1.0)
-    assert depth == pytest.approx(0.146)  # a Burger's length, which is less than its width
-
-
-# -- out of one another ---------------------------------------------------------------------------------------------
-
-
-depths = st.floats(1e-6, 1e-2)
-levers = st.floats(-0.2, 0.2)
-
-
-@given(depths, levers)
-def test_one_point_of_contact_just_touches_afterwards(depth, lever):
-    along, turn = kernels.point_correction(1, depth, 0.0, lever, 0.0, 1.0, 0.0025)
-    assert along + turn * lever == pytest.approx(depth, abs=1e-12)
-    assert along > 0
-    assert turn * lever >= 0
-
-
-@given(depths, depths, levers, levers)
-def test_of_two_points_one_just_touches_afterwards_and_none_is_deeper_than_before(first, second, r, q):
-    assume(abs(r - q) > 1e-3)
-    along, turn = kernels.point_correction(2, first, second, r, q, 1.0, 0.0025)
-    left = [first - along - turn * r, second - along - turn * q]
-    assert min(abs(left[0]), abs(left[1])) < 1e-9
-    assert max(left) < max(first, second)
-    if r * q < 0 and first == second:  # the points are on both sides, so both can just touch
-        assert left == pytest.approx([0.0, 0.0], abs=1e-9)
-
-
-def test_flat_against_a_wall_a_body_does_not_turn():
-    assert kernels.point_correction(2, 0.001, 0.001, 0.105, -0.105, 1.0, 0.0025) == pytest.approx((0.001, 0.0))

@@ -1,10 +1,7 @@
 """Looking changes nothing: not one bit of a trajectory, with numba or without, alone or with others far away."""
 
-from __future__ import annotations
-
 import math
 import pickle
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -17,30 +14,21 @@ from rosmini.sim.motion import Door, Walk
 from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, World
 
 from ...conftest import nightly
+from .pens import generator, pen
 
 OMNI = replace(BURGER, name="omni", drive="holonomic", linear_acceleration=0.8)
 TROLLEY = replace(BURGER, name="trolley", drive=None, mass=0.3)
 SECONDS = 3.0
 
 
-def pen(half: float, *obstacles: Obstacle) -> World:
-    h = half
-    sides = np.array([(-h, -h, h, -h), (h, -h, h, h), (h, h, -h, h), (-h, h, -h, -h)])
-    return World("pen", obstacles, walls=sides)
-
-
-def generator(name: str) -> np.random.Generator:
-    return np.random.default_rng(sum(name.encode()))
-
-
-def made(world: World, **robots) -> Engine:
+def made(world, **robots):
     engine = Engine(world, generator)
     for name, (model, pose) in robots.items():
         engine.add(name, model, pose)
     return engine
 
 
-def struck() -> Engine:
+def struck():
     """A crate that a robot strikes, and that strikes another."""
     crates = (
         Obstacle("crate", Box(0.2, 0.2), (0.25, 0.03, 0.3), mass=0.3, restitution=0.6),
@@ -51,17 +39,17 @@ def struck() -> Engine:
     return engine
 
 
-def two_that_push_one() -> Engine:
+def two_that_push_one():
     crate = Obstacle("crate", Box(0.2, 0.5), (0.3, 0.0, 0.0), mass=1.6)
     return made(World("hall", (crate,)), one=(BURGER, (0.1, -0.12, 0.0)), two=(WAFFLE, (0.1, 0.16, 0.0)))
 
 
-def along_a_wall() -> Engine:
+def along_a_wall():
     wedge = Obstacle("wedge", Polygon(((0.0, 0.0), (0.4, 0.0), (0.0, 0.3))), (0.7, 0.6, 3.0))
     return made(pen(0.8, wedge), one=(BURGER, (0.0, 0.66, 0.9)), omni=(OMNI, (0.66, -0.5, -0.6)))
 
 
-def yard() -> Engine:
+def yard():
     """Something of everything."""
     legs = Compound(tuple((Cylinder(0.03), (x, y, 0.0)) for x in (-0.2, 0.2) for y in (-0.15, 0.15)))
     things = (
@@ -79,7 +67,7 @@ def yard() -> Engine:
     )
 
 
-def crowd() -> Engine:
+def crowd():
     engine = made(pen(0.9, Obstacle("crate", Box(0.15, 0.2), (0.0, 0.0, 0.4), mass=0.5)))
     for i in range(12):
         x, y = 0.62 * math.cos(i * math.tau / 12), 0.62 * math.sin(i * math.tau / 12)
@@ -89,10 +77,8 @@ def crowd() -> Engine:
 
 SCENES = [struck, two_that_push_one, along_a_wall, yard, crowd]
 
-Look = Callable[[Engine, np.random.Generator], None]
 
-
-def told(engine: Engine, seed: int) -> list[tuple[float, str, tuple[float, float, float], float]]:
+def told(engine, seed):
     """What the robots are told, and when: some of it on the grid of the physics, some beside it."""
     rng = np.random.default_rng(seed)
     orders = []
@@ -106,7 +92,7 @@ def told(engine: Engine, seed: int) -> list[tuple[float, str, tuple[float, float
     return sorted(orders)
 
 
-def run(engine: Engine, seed: int, look: Look | None = None) -> list:
+def run(engine, seed, look=None):
     """Where everything is every 50 ms, and what is felt."""
     orders = told(engine, seed)
     rng = np.random.default_rng(seed + 1)
@@ -127,7 +113,7 @@ def run(engine: Engine, seed: int, look: Look | None = None) -> list:
     return seen
 
 
-def picture(engine: Engine) -> tuple:
+def picture(engine):
     robots = [each for each in engine.robots.values() if not each.name.startswith("far")]
     return (
         [(r.name, r.pose, r.velocity, r.motion(), r.touching, r.ticks) for r in robots],
@@ -136,7 +122,7 @@ def picture(engine: Engine) -> tuple:
     )
 
 
-def glance(engine: Engine, rng: np.random.Generator) -> None:
+def glance(engine, rng):
     names = list(engine.robots)
     name = names[int(rng.integers(len(names)))]
     what = int(rng.integers(5))
@@ -153,7 +139,7 @@ def glance(engine: Engine, rng: np.random.Generator) -> None:
         engine.scan(name)
 
 
-def save(engine: Engine, rng: np.random.Generator) -> None:
+def save(engine, rng):
     state = engine.state()
     if rng.random() < 0.3:
         state = pickle.loads(pickle.dumps(state))

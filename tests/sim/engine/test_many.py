@@ -1,7 +1,5 @@
 """Many robots: they do not go through one another, cost what they do, and change nothing about each other's noise."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -11,15 +9,7 @@ from rosmini.sim.engine import Engine, RobotGone
 from rosmini.sim.models import BURGER, WAFFLE
 from rosmini.sim.world import Box, Cylinder, Obstacle, World, WorldError
 
-
-def generator(name: str) -> np.random.Generator:
-    return np.random.default_rng(sum(name.encode()))
-
-
-def pen(half: float) -> World:
-    h = half
-    sides = np.array([(-h, -h, h, -h), (h, -h, h, h), (h, h, -h, h), (-h, h, -h, -h)])
-    return World("pen", walls=sides)
+from .pens import generator, pen
 
 
 def test_a_robot_that_comes_while_another_rests_is_not_overlooked():
@@ -92,21 +82,6 @@ def test_a_robot_is_removed_while_it_moves_and_pushes_and_is_pushed():
     engine.add("0", BURGER, (5.0, 0.0, 0.0))
 
 
-def test_who_does_not_touch_goes_on_in_closed_form_while_others_push():
-    engine = Engine(pen(20.0), generator, noise=0.0)
-    engine.add("stuck", BURGER, (19.9, 0.0, 0.0))
-    engine.add("free", BURGER, (-15.0, 0.0, 0.0))
-    for name in engine.robots:
-        engine.command(name, 0.2, 0.0)
-    for k in range(1, 301):
-        engine.advance(k / 30)
-    assert engine.robots["stuck"].touching
-    assert engine.robots["free"].pose == pytest.approx((-15.0 + 2.0 - 0.02, 0.0, 0.0), abs=1e-9)
-
-
-# -- collisions ------------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("restitution", [0.0, 0.25, 0.5, 1.0])
 @pytest.mark.parametrize("ratio", [1.0, 3.0])
 def test_discs_that_collide_head_on_keep_momentum_and_restitution(restitution, ratio):
@@ -161,9 +136,6 @@ def test_wheels_push_no_harder_than_their_grip(mass, moves):
     assert (engine.pose("crate")[0] > 0.8) == moves
     slipped = engine.robots["burger"].left_distance - engine.pose("burger")[0]
     assert slipped > (-0.01 if moves else 0.5)
-
-
-# -- worlds ----------------------------------------------------------------------------------------------------------
 
 
 def test_a_world_of_a_hundred_thousand_walls():

@@ -1,14 +1,7 @@
 """Robots and worlds for the tests of Gazebo's part."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from typing import Any
-
 import pytest
 
-from rosmini import Graph
-from rosmini.core.graph import Node
 from rosmini.msgs import message_class, service_class
 from rosmini.sim.gazebo import GazeboServer
 
@@ -32,7 +25,7 @@ LASER = """
 """
 
 
-def urdf(extensions: str = DIFF_DRIVE + LASER, axle: float = 0.0) -> str:
+def urdf(extensions=DIFF_DRIVE + LASER, axle=0.0):
     """A box on two wheels, with a laser 0.2 m above the ground; its axle is `axle` metres ahead of its origin."""
     wheel = """
     <link name="{side}"><inertial><mass value="0.1"/>
@@ -56,7 +49,35 @@ def urdf(extensions: str = DIFF_DRIVE + LASER, axle: float = 0.0) -> str:
     </robot>"""
 
 
-def box(name: str = "box", *, static: bool = False, extra: str = "", size: float = 0.4, mass: float = 2.0) -> str:
+HUSKY_WHEEL = """
+<link name="{name}"><inertial><mass value="2"/>
+  <inertia ixx="0.02" iyy="0.02" izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial>
+  <collision><geometry><cylinder radius="0.165" length="0.11"/></geometry></collision></link>
+<joint name="{name}_joint" type="continuous"><parent link="base_link"/><child link="{name}"/>
+  <origin xyz="{x} {y} 0.165" rpy="-1.5707963267948966 0 0"/><axis xyz="0 0 1"/></joint>"""
+
+
+def husky(extra=""):
+    """A box on four wheels, as a Husky has them; the middle of the wheels is 0.1 m ahead of its origin."""
+    wheels = "".join(
+        HUSKY_WHEEL.format(name=f"{end}_{side}", x=0.1 + x, y=y)
+        for end, x in (("front", 0.256), ("rear", -0.256))
+        for side, y in (("left", 0.2854), ("right", -0.2854))
+    )
+    joints = "".join(
+        f"<{side}{end.title()}Joint>{end}_{side}_joint</{side}{end.title()}Joint>"
+        for side in ("left", "right")
+        for end in ("front", "rear")
+    )
+    return f"""<robot name="husky"><link name="base_link"><inertial><mass value="33"/>
+      <inertia ixx="0.6" iyy="1.5" izz="1.6" ixy="0" ixz="0" iyz="0"/></inertial>
+      <collision><origin xyz="0.1 0 0.3"/><geometry><box size="0.98 0.57 0.25"/></geometry></collision></link>{wheels}
+      <gazebo><plugin name="skid_steer" filename="libgazebo_ros_skid_steer_drive.so">{joints}
+        <wheelSeparation>0.5708</wheelSeparation><wheelDiameter>0.33</wheelDiameter><updateRate>50</updateRate>
+        <robotBaseFrame>base_link</robotBaseFrame>{extra}</plugin></gazebo></robot>"""
+
+
+def box(name="box", *, static=False, extra="", size=0.4, mass=2.0):
     """The SDF of a cube."""
     inertia = mass * size * size / 6
     return f"""<?xml version="1.0"?><sdf version="1.6"><model name="{name}"><static>{int(static)}</static>
@@ -70,16 +91,16 @@ def box(name: str = "box", *, static: bool = False, extra: str = "", size: float
 class Bench:
     """A server, and a node that talks to it."""
 
-    def __init__(self, graph: Graph, *args: str, **options: Any) -> None:
+    def __init__(self, graph, *args, **options):
         self.graph = graph
         self.server = GazeboServer(graph.node("gazebo"), *args, **options)
-        self.node: Node = graph.node("tester")
+        self.node = graph.node("tester")
 
-    def call(self, service: str, kind: str, **fields: Any) -> Any:
+    def call(self, service, kind, **fields):
         """What a service of /gazebo answers."""
         return self.node.service_client(f"/gazebo/{service}", service_class(kind))(**fields)
 
-    def spawn(self, xml: str, name: str, x: float = 0.0, y: float = 0.0, yaw: float = 0.0, **fields: Any) -> Any:
+    def spawn(self, xml, name, x=0.0, y=0.0, yaw=0.0, **fields):
         """Spawn what a URDF or an SDF describes."""
         import math
 
@@ -91,7 +112,7 @@ class Bench:
             f"spawn_{kind}_model", "gazebo_msgs/SpawnModel", model_name=name, model_xml=xml, initial_pose=pose, **fields
         )
 
-    def drive(self, topic: str, v: float, w: float = 0.0, vy: float = 0.0) -> None:
+    def drive(self, topic, v, w=0.0, vy=0.0):
         """Publish a velocity once."""
         twist = message_class("geometry_msgs/Twist")
         publisher = self.node.publisher(topic, twist)
@@ -100,22 +121,22 @@ class Bench:
         message.linear.x, message.linear.y, message.angular.z = v, vy, w
         publisher.publish(message)
 
-    def hear(self, topic: str, kind: str) -> list[Any]:
+    def hear(self, topic, kind):
         """The messages of a topic, as they come."""
-        heard: list[Any] = []
+        heard = []
         self.node.subscriber(topic, message_class(kind), heard.append)
         return heard
 
-    def pose(self, name: str) -> tuple[float, float, float]:
+    def pose(self, name):
         """Where a model is."""
         return self.server.truth(name)
 
 
 @pytest.fixture
-def bench(graph: Graph) -> Callable[..., Bench]:
+def bench(graph):
     """Start a server with these arguments; without any in an empty world."""
 
-    def start(*args: str, **options: Any) -> Bench:
+    def start(*args, **options):
         return Bench(graph, *(args or ("empty",) if not options else args), **options)
 
     return start

@@ -1,7 +1,5 @@
 """A URDF becomes the SDF model that Gazebo makes of it."""
 
-from __future__ import annotations
-
 from pathlib import PurePosixPath, PureWindowsPath
 
 import pytest
@@ -17,11 +15,11 @@ from rosmini.sim.sdf import ORIGIN, SdfGeometry, SdfLink, SdfModel, SdfVisual
 from .conftest import urdf
 
 
-def converted(text: str):  # type: ignore[no-untyped-def]
+def converted(text):
     return from_urdf(urdf_package.load(text))
 
 
-def test_fixed_joints_are_lumped() -> None:
+def test_fixed_joints_are_lumped():
     found = converted(urdf())
     model = found.model
     assert [link.name for link in model.links] == ["base_footprint", "left", "right"]
@@ -34,12 +32,12 @@ def test_fixed_joints_are_lumped() -> None:
     assert base.sensors[0].pose == pytest.approx((0, 0, 0.2, 0, 0, 0))
 
 
-def test_a_fixed_joint_can_be_kept() -> None:
+def test_a_fixed_joint_can_be_kept():
     kept = urdf('<gazebo reference="base_joint"><preserveFixedJoint>true</preserveFixedJoint></gazebo>')
     assert [link.name for link in converted(kept).model.links] == ["base_footprint", "base_link", "left", "right"]
 
 
-def test_masses_that_are_lumped_obey_the_theorem_of_parallel_axes() -> None:
+def test_masses_that_are_lumped_obey_the_theorem_of_parallel_axes():
     link = """<link name="{}"><inertial><mass value="1"/>
       <inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>"""
     text = f"""<robot name="r">{link.format("a")}{link.format("b")}
@@ -50,7 +48,7 @@ def test_masses_that_are_lumped_obey_the_theorem_of_parallel_axes() -> None:
     assert inertial.inertia[:3] == pytest.approx((0.2, 2.2, 2.2))
 
 
-def test_an_sdf_text_of_it_reads_back_the_same() -> None:
+def test_an_sdf_text_of_it_reads_back_the_same():
     model = converted(urdf()).model
     again = sdf.load(to_sdf(model)).models[0]
     assert [link.name for link in again.links] == [link.name for link in model.links]
@@ -63,7 +61,7 @@ def test_an_sdf_text_of_it_reads_back_the_same() -> None:
     assert [joint.type for joint in again.joints] == ["revolute", "revolute"]
 
 
-def test_the_engine_learns_wheels_mass_and_outline() -> None:
+def test_the_engine_learns_wheels_mass_and_outline():
     body = Body(converted(urdf(axle=0.1)).model)
     body.set_wheels("left_wheel", "right_wheel", 0.3, 0.05)
     robot = body.robot_model()
@@ -78,7 +76,7 @@ def test_the_engine_learns_wheels_mass_and_outline() -> None:
     assert not body.notes
 
 
-def test_wheels_that_are_elsewhere_than_the_plugin_says_are_noted() -> None:
+def test_wheels_that_are_elsewhere_than_the_plugin_says_are_noted():
     body = Body(converted(urdf()).model)
     body.set_wheels("left_wheel", "right_wheel", 0.4, 0.05)
     assert "0.300 m apart, but its plugin says 0.4 m" in body.notes[0]

@@ -3,12 +3,8 @@
 Real roslaunch reads them in `tests/interop`.
 """
 
-from __future__ import annotations
-
 import re
 from itertools import pairwise
-from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -25,7 +21,7 @@ FILES = sorted(
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
-def test_all_that_a_launch_file_names_is_there(path: Path) -> None:
+def test_all_that_a_launch_file_names_is_there(path):
     index = PackageIndex()
     root = parse_file(path)
     assert root.tag == "launch"
@@ -40,7 +36,7 @@ def test_all_that_a_launch_file_names_is_there(path: Path) -> None:
                 assert place.exists() or rest.endswith("turtlebot3_"), f"{path}:{element.line}: {place}"
 
 
-def test_empty_world_has_the_arguments_of_noetic() -> None:
+def test_empty_world_has_the_arguments_of_noetic():
     root = parse_file(assets_dir() / "ros" / "gazebo_ros" / "launch" / "empty_world.launch")
     arguments = {each.get("name"): each.get("default") for each in root.all("arg") if "default" in each.attributes}
     noetic = """paused=false use_sim_time=true extra_gazebo_args= gui=true recording=false headless=false debug=false
@@ -50,10 +46,10 @@ def test_empty_world_has_the_arguments_of_noetic() -> None:
     assert arguments == dict(word.split("=") for word in noetic.split())
 
 
-def test_keys_move_a_target_that_is_approached() -> None:
+def test_keys_move_a_target_that_is_approached():
     path = PackageIndex().find_executable("turtlebot3_teleop", "turtlebot3_teleop_key").path
     with Graph() as graph:
-        heard: list[Any] = []
+        heard = []
         graph.node("ear").subscriber("/cmd_vel", message_class("geometry_msgs/Twist"), heard.append)
         more = [(3.5 + i / 4, "wwww") for i in range(10)]
         pieces = [(0.5, "wwa"), (3.0, "s"), *more, (11.0, "\x03")]

@@ -2,33 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
 
 import pytest
 
-from rosmini.core.markup import Element, MarkupError, parse
-from rosmini.sim.gazebo import (
-    ModelPlugin,
-    SensorPlugin,
-    Tags,
-    UnknownPlugin,
-    WorldPlugin,
-    plugin_class,
-    plugin_filenames,
-    plugins,
-    tag,
-)
+from rosmini.core.markup import MarkupError, parse
+from rosmini.sim.gazebo import ModelPlugin, SensorPlugin, Tags, WorldPlugin, plugins, tag
 
-from .conftest import DIFF_DRIVE, LASER, Bench, box, urdf
-
-Start = Callable[..., Bench]
+from .conftest import DIFF_DRIVE, LASER, box, urdf
 
 
 @pytest.fixture(autouse=True)
-def own_registry(monkeypatch: pytest.MonkeyPatch) -> None:
+def own_registry(monkeypatch):
     """What a test registers is gone after it."""
     monkeypatch.setattr(plugins, "_CLASSES", dict(plugins._CLASSES))
 
@@ -36,7 +21,7 @@ def own_registry(monkeypatch: pytest.MonkeyPatch) -> None:
 PUSH = '<plugin name="push" filename="libmodel_push.so"><velocity>{}</velocity><duration>{}</duration></plugin>'
 
 
-def test_a_box_is_pushed_along(bench: Start) -> None:
+def test_a_box_is_pushed_along(bench):
     there = bench()
     assert there.spawn(box(extra=PUSH.format("0.5 0 0", 2)), "crate").success
     there.graph.run(2.0)
@@ -49,19 +34,19 @@ def test_a_box_is_pushed_along(bench: Start) -> None:
     assert there.pose("crate")[0] == pytest.approx(x, abs=1e-6)  # nobody pushes any more
 
 
-def world_with(plugin: str) -> str:
+def world_with(plugin):
     return (
         f'<sdf version="1.6"><world name="w"><include><uri>model://ground_plane</uri></include>{plugin}</world></sdf>'
     )
 
 
-def load(text: str) -> Any:
+def load(text):
     from rosmini.sim import sdf
 
     return sdf.load(text).worlds[0]
 
 
-def test_crates_come_into_the_world(bench: Start) -> None:
+def test_crates_come_into_the_world(bench):
     text = (
         '<plugin name="crates" filename="libspawner.so"><count>3</count><period>1.0</period>'
         "<from>0 0</from><to>2 0</to></plugin>"
@@ -74,33 +59,33 @@ def test_crates_come_into_the_world(bench: Start) -> None:
     assert "crate_4" not in there.server.world.models
 
 
-def test_a_server_loads_a_plugin_of_its_arguments(bench: Start) -> None:
+def test_a_server_loads_a_plugin_of_its_arguments(bench):
     there = bench("empty", "-s", "libspawner.so", "-s", "libgazebo_ros_api_plugin.so")
     there.graph.run(1.5)
     assert "crate_1" in there.server.world.models
 
 
-def test_the_three_kinds_of_plugins_hear_what_happens(bench: Start) -> None:
-    heard: list[str] = []
+def test_the_three_kinds_of_plugins_hear_what_happens(bench):
+    heard = []
 
     class Worldly(WorldPlugin, filename="libworldly.so"):
-        def load(self, world: Any, sdf: Element) -> None:
+        def load(self, world, sdf):
             heard.append(f"load {world.name} {sdf.word('say')}")
 
-        def reset(self) -> None:
+        def reset(self):
             heard.append("reset")
 
-        def close(self) -> None:
+        def close(self):
             heard.append("close")
             super().close()
 
     class Modelled(ModelPlugin, filename="libmodelled.so"):
-        def load(self, model: Any, sdf: Element) -> None:
+        def load(self, model, sdf):
             heard.append(f"load {model.name}")
             self.every(2.0, lambda now: heard.append(f"{model.name} at {now:.1f}"))
 
     class Sensing(SensorPlugin, filename="libsensing.so"):
-        def load(self, sensor: Any, sdf: Element) -> None:
+        def load(self, sensor, sdf):
             heard.append(f"load {sensor.device_name} {sensor.type} at {sensor.mount[2]:.1f} m")
 
     there = bench(world=load(world_with('<plugin name="p" filename="libworldly.so"><say>hello</say></plugin>')))
@@ -116,12 +101,12 @@ def test_the_three_kinds_of_plugins_hear_what_happens(bench: Start) -> None:
     assert heard == ["load w hello", "load r/lidar ray at 0.2 m", "load r", "r at 0.5", "r at 1.0", "reset", "close"]
 
 
-def test_what_a_plugin_raises_is_told_and_all_goes_on(bench: Start, capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_a_plugin_raises_is_told_and_all_goes_on(bench, capsys):
     class Broken(ModelPlugin, filename="libbroken.so"):
-        def load(self, model: Any, sdf: Element) -> None:
+        def load(self, model, sdf):
             self.every(10.0, self.fail)
 
-        def fail(self, now: float) -> None:
+        def fail(self, now):
             raise ValueError("this plugin is broken")
 
     there = bench()
@@ -134,13 +119,13 @@ def test_what_a_plugin_raises_is_told_and_all_goes_on(bench: Start, capsys: pyte
     assert there.server.world.now > now
 
 
-def test_a_plugin_that_cannot_begin_takes_its_model_away_again(bench: Start) -> None:
+def test_a_plugin_that_cannot_begin_takes_its_model_away_again(bench):
     class Broken(ModelPlugin, filename="libbroken.so"):
-        def load(self, model: Any, sdf: Element) -> None:
+        def load(self, model, sdf):
             self.every(10, lambda _: None)
             raise KeyError("speed")
 
-        def close(self) -> None:
+        def close(self):
             super().close()
             raise ValueError("nor can it end")
 
@@ -163,9 +148,7 @@ def test_a_plugin_that_cannot_begin_takes_its_model_away_again(bench: Start) -> 
     there.graph.run(0.5)
 
 
-def test_a_plugin_in_a_file_is_found(
-    bench: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_plugin_in_a_file_is_found(bench, tmp_path, monkeypatch, capsys):
     (tmp_path / "nudge.py").write_text(
         "from rosmini.sim.gazebo import ModelPlugin\n"
         "class Nudge(ModelPlugin, filename='libnudge.so'):\n"
@@ -182,13 +165,6 @@ def test_a_plugin_in_a_file_is_found(
     assert "cannot be loaded: ZeroDivisionError: division by zero" in "".join(capsys.readouterr())
 
 
-def test_names_of_libraries() -> None:
-    assert plugin_class("gazebo_ros_laser") is plugin_class("/opt/ros/noetic/lib/libgazebo_ros_laser.so")
-    with pytest.raises(UnknownPlugin, match=r"did you mean libgazebo_ros_laser\.so"):
-        plugin_class("libgazebo_ros_lasr.so")
-    assert "libgazebo_ros_p3d.so" in plugin_filenames()
-
-
 @dataclass(frozen=True, kw_only=True)
 class Some(Tags):
     name: str = tag("name", meaning="its name")
@@ -197,8 +173,8 @@ class Some(Tags):
     count: int = tag("count", 2, "how many")
 
 
-def test_tags_are_read_and_checked() -> None:
-    complaints: list[str] = []
+def test_tags_are_read_and_checked():
+    complaints = []
     found = Some.read(
         parse("<p><name>n</name><on>TRUE</on><count>3</count><siz>2</siz><robotNamespace/></p>"), complaints.append
     )

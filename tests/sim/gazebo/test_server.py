@@ -1,15 +1,8 @@
 """gzserver, gzclient and gazebo: arguments, worlds, time, and a client that uses Gazebo's topics only."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from pathlib import Path
-
 import pytest
 
-from rosmini import Graph
 from rosmini.core.errors import ParameterError, ROSException, ScriptError
-from rosmini.msgs import message_class
 from rosmini.ros.scripts import rosrun
 from rosmini.sim.gazebo import GazeboClient, GazeboError, GazeboServer
 from rosmini.sim.sdf import SdfError
@@ -17,8 +10,6 @@ from rosmini.sim.verbs.gz import Gz
 from rosmini.sim.world import Box, Obstacle, World
 
 from .conftest import DIFF_DRIVE, Bench, box, urdf
-
-Start = Callable[..., Bench]
 
 WORLD = """<sdf version="1.6"><world name="yard">
   <physics type="ode"><max_step_size>0.002</max_step_size><real_time_update_rate>500</real_time_update_rate></physics>
@@ -33,7 +24,7 @@ WORLD = """<sdf version="1.6"><world name="yard">
 </world></sdf>"""
 
 
-def test_a_world_file_is_loaded(bench: Start, tmp_path: Path) -> None:
+def test_a_world_file_is_loaded(bench, tmp_path):
     path = tmp_path / "yard.world"
     path.write_text(WORLD, encoding="utf-8")
     there = bench(str(path))
@@ -50,10 +41,8 @@ def test_a_world_file_is_loaded(bench: Start, tmp_path: Path) -> None:
     assert there.call("get_link_properties", "gazebo_msgs/GetLinkProperties", link_name="crate::link").mass == 1.5
 
 
-def test_what_is_wrong_with_a_world_or_a_model_is_one_warning(
-    bench: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    said: list[str] = []
+def test_what_is_wrong_with_a_world_or_a_model_is_one_warning(bench, tmp_path, monkeypatch):
+    said = []
     monkeypatch.setattr("rosmini.core.graph.node.Node.logwarn", lambda node, text: said.append(text))
     path = tmp_path / "yard.world"
     massless = WORLD.replace("<mass>1.5</mass>", "<mass>0</mass>")
@@ -74,9 +63,7 @@ def test_what_is_wrong_with_a_world_or_a_model_is_one_warning(
     assert "'m'" in other and "\n<text>:1: a mass" in other
 
 
-def test_a_world_goes_on_without_a_model_that_cannot_come(
-    bench: Start, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_world_goes_on_without_a_model_that_cannot_come(bench, tmp_path, capsys):
     path = tmp_path / "broken.world"
     driven = DIFF_DRIVE[DIFF_DRIVE.index("<plugin") : DIFF_DRIVE.index("</gazebo>")]
     model = f"<model name='cart'><link name='l'/>{driven}</model>"
@@ -88,20 +75,20 @@ def test_a_world_goes_on_without_a_model_that_cannot_come(
     assert "the model 'cart' has no joint 'left_wheel'" in capsys.readouterr().err
 
 
-def test_worlds_are_looked_for_as_gzserver_does(bench: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_worlds_are_looked_for_as_gzserver_does(bench, tmp_path, monkeypatch):
     (tmp_path / "worlds").mkdir()
     (tmp_path / "worlds" / "yard.world").write_text(WORLD, encoding="utf-8")
     monkeypatch.setenv("GAZEBO_RESOURCE_PATH", str(tmp_path))
     assert bench("worlds/yard.world").server.world.name == "yard"
 
 
-def test_the_empty_world_is_the_default(graph: Graph) -> None:
+def test_the_empty_world_is_the_default(graph):
     server = rosrun("gazebo_ros", "gzserver", graph=graph).instance()
     assert server.node.name == "/gazebo"
     assert list(server.world.models) == ["ground_plane"]
 
 
-def test_worlds_that_are_none(graph: Graph, tmp_path: Path) -> None:
+def test_worlds_that_are_none(graph, tmp_path):
     for name, said in (("romm", "did you mean room?"), ("worlds/none.world", "searched in")):
         with pytest.raises(GazeboError, match=said.replace("?", r"\?")):
             GazeboServer(graph.node("gazebo"), name)
@@ -115,7 +102,7 @@ def test_worlds_that_are_none(graph: Graph, tmp_path: Path) -> None:
     GazeboServer(graph.node("gazebo"), "empty")  # what failed left nothing behind
 
 
-def test_arguments(graph: Graph) -> None:
+def test_arguments(graph):
     server = GazeboServer(graph.node("gazebo"), "-u", "--verbose", "-e", "ode", "room")
     assert server.world.paused
     for words, said in (
@@ -126,7 +113,7 @@ def test_arguments(graph: Graph) -> None:
             GazeboServer(graph.node("other"), "empty", *words)
 
 
-def test_a_server_ends_after_so_many_steps(graph: Graph) -> None:
+def test_a_server_ends_after_so_many_steps(graph):
     server = GazeboServer(graph.node("gazebo"), "--iters", "500", "empty")
     graph.run(0.4)
     assert not server.node.is_shutdown()
@@ -134,7 +121,7 @@ def test_a_server_ends_after_so_many_steps(graph: Graph) -> None:
     assert server.node.is_shutdown()
 
 
-def test_time_begins_at_zero_and_everybody_lives_on_it(bench: Start) -> None:
+def test_time_begins_at_zero_and_everybody_lives_on_it(bench):
     there = bench()
     assert there.node.get_param("/use_sim_time") is True
     late = there.graph.node("late")
@@ -148,7 +135,7 @@ def test_time_begins_at_zero_and_everybody_lives_on_it(bench: Start) -> None:
     assert late.clock.now_ns() == pytest.approx(5e8, abs=2e7)
 
 
-def test_how_often_the_clock_ticks(graph: Graph) -> None:
+def test_how_often_the_clock_ticks(graph):
     graph.master.setParam("/test", "/gazebo/pub_clock_frequency", 10)
     there = Bench(graph, "empty")
     ticks = there.hear("/clock", "rosgraph_msgs/Clock")
@@ -160,7 +147,7 @@ def test_how_often_the_clock_ticks(graph: Graph) -> None:
         GazeboServer(graph.node("other"), "empty")
 
 
-def test_rosminis_own_worlds_have_their_obstacles_as_models(bench: Start) -> None:
+def test_rosminis_own_worlds_have_their_obstacles_as_models(bench):
     own = World(
         "own",
         (
@@ -175,7 +162,7 @@ def test_rosminis_own_worlds_have_their_obstacles_as_models(bench: Start) -> Non
     assert "robot" in there.server.world.models
 
 
-def test_from_python_without_services(bench: Start) -> None:
+def test_from_python_without_services(bench):
     there = bench()
     model = there.server.spawn(urdf(), "robot", (1.0, 2.0, 0.5), namespace="r")
     assert model.links == ("base_footprint", "left", "right")
@@ -186,10 +173,7 @@ def test_from_python_without_services(bench: Start) -> None:
         there.pose("robot")
 
 
-# ---- the client ----
-
-
-def test_a_client_shows_the_world_of_the_server(graph: Graph) -> None:
+def test_a_client_shows_the_world_of_the_server(graph):
     server = rosrun("gazebo_ros", "gzserver", "room", graph=graph).instance()
     client = rosrun("gazebo_ros", "gzclient", graph=graph).instance()
     assert client.node.name == "/gazebo_gui"
@@ -210,46 +194,16 @@ def test_a_client_shows_the_world_of_the_server(graph: Graph) -> None:
     assert "robot" not in client.models
 
 
-def test_the_simulation_does_not_need_a_client(bench: Start) -> None:
-    there = bench()
-    client = there.server.client()
-    there.graph.run(0.5)
-    client.node.shutdown("the window is closed")
-    there.graph.run(0.5)
-    assert there.server.world.now == pytest.approx(1.0, abs=0.01)
-    assert there.server.master.info("/gazebo/empty/pose/info").subscribers == ()
-
-
-def test_a_client_without_a_server_says_so(graph: Graph) -> None:
+def test_a_client_without_a_server_says_so(graph):
     with pytest.raises(ROSException, match=r"no server runs at http://localhost:11345"):
         GazeboClient(graph.node("gazebo_gui"))
     with pytest.raises(ScriptError, match="there is no option --what"):
         GazeboClient(graph.node("gazebo_gui"), "--what")
 
 
-def test_gazebo_is_both(graph: Graph) -> None:
+def test_gazebo_is_both(graph):
     both = rosrun("gazebo_ros", "gazebo", "room", graph=graph).instance()
     assert both.node.name == "/gazebo"
     assert both.gui.node.name == "/gazebo_gui"
     both.node.shutdown("enough")
     assert both.gui.node.is_shutdown()
-
-
-def test_what_the_client_shows_is_the_world(bench: Start, tmp_path: Path) -> None:
-    path = tmp_path / "yard.world"
-    path.write_text(WORLD, encoding="utf-8")
-    there = bench(str(path))
-    there.spawn(urdf(), "robot", -1.0, 0.0)
-    client = there.server.client()
-    shown = client.snapshot().world()
-    names = {obstacle.name.split(" ")[0] for obstacle in shown.obstacles}
-    assert names == {"wall", "crate", "robot"}
-    crate = next(obstacle for obstacle in shown.obstacles if obstacle.name == "crate")
-    assert crate.pose == pytest.approx((1.0, 1.0, 0.5))
-    message = message_class("gazebo_msgs/ModelState")(model_name="crate")
-    message.pose.position.x = 2.0
-    there.call("set_model_state", "gazebo_msgs/SetModelState", model_state=message)
-    there.graph.run(0.1)
-    crate = next(obstacle for obstacle in client.snapshot().world().obstacles if obstacle.name == "crate")
-    assert crate.pose[0] == pytest.approx(2.0)
-    assert "yard" in client.show().text

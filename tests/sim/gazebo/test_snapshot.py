@@ -1,22 +1,16 @@
 """Snapshots of a world: the models as a server or a client shows them."""
 
-from __future__ import annotations
-
 import math
-from collections.abc import Callable
 
 import numpy as np
 import pytest
 
-from rosmini.sim.gazebo import GazeboServer
-from rosmini.sim.gazebo.snapshot import ShownLink, Snapshot
+from rosmini.sim.gazebo.snapshot import Snapshot
 from rosmini.sim.gazebo.spawning import spawn_text
 from rosmini.sim.sdf.poses import matrix
 from rosmini.sim.urdf.xacro import expand
 
-from .conftest import Bench, box, urdf
-
-Start = Callable[..., Bench]
+from .conftest import box, urdf
 
 PAINTED = box(
     "crate",
@@ -28,18 +22,18 @@ PAINTED = box(
 )
 
 
-def turtlebot3(model: str) -> str:
+def turtlebot3(model):
     return expand(f"package://turtlebot3_description/urdf/turtlebot3_{model}.urdf.xacro")
 
 
-def link(server: GazeboServer, name: str) -> ShownLink:
+def link(server, name):
     """A link as a client shows it."""
     model, _, own = name.partition("::")
     shown = next(each for each in server.client().snapshot().models if each.name == model)
     return next(each for each in shown.links if each.name == own)
 
 
-def test_a_model_has_its_links_visuals_and_collisions(bench: Start) -> None:
+def test_a_model_has_its_links_visuals_and_collisions(bench):
     there = bench()
     there.spawn(PAINTED, "thing", 1.0)
     lid = link(there.server, "thing::lid")
@@ -53,7 +47,7 @@ def test_a_model_has_its_links_visuals_and_collisions(bench: Start) -> None:
     assert collision.geometry.size[0] == 0.4
 
 
-def test_a_client_sees_wheels_turn(bench: Start) -> None:
+def test_a_client_sees_wheels_turn(bench):
     there = bench()
     there.spawn(urdf(), "robot")
     client = there.server.client()
@@ -70,7 +64,7 @@ def test_a_client_sees_wheels_turn(bench: Start) -> None:
     assert matrix(now.pose) == pytest.approx(truth, abs=1e-9)
 
 
-def test_a_client_forgets_what_was_deleted(bench: Start) -> None:
+def test_a_client_forgets_what_was_deleted(bench):
     there = bench()
     there.spawn(urdf(), "robot")
     client = there.server.client()
@@ -83,7 +77,7 @@ def test_a_client_forgets_what_was_deleted(bench: Start) -> None:
     assert model.pose == (3.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
-def test_a_client_knows_what_drives(bench: Start) -> None:
+def test_a_client_knows_what_drives(bench):
     there = bench()
     there.spawn(urdf(axle=0.2), "robot", 1.0, 2.0, math.pi / 2)
     there.spawn(box(), "crate", -1.0)
@@ -101,7 +95,7 @@ def test_a_client_knows_what_drives(bench: Start) -> None:
     assert {each.name for each in seen.world(robots=False).obstacles} == {"crate", "post"}
 
 
-def test_a_client_hears_when_time_stops_whoever_stops_it(bench: Start) -> None:
+def test_a_client_hears_when_time_stops_whoever_stops_it(bench):
     there = bench()
     client = there.server.client()
     there.graph.run(1.0)
@@ -118,7 +112,7 @@ def test_a_client_hears_when_time_stops_whoever_stops_it(bench: Start) -> None:
     assert not client.snapshot().paused
 
 
-def test_server_and_client_show_the_same(bench: Start) -> None:
+def test_server_and_client_show_the_same(bench):
     there = bench("-u")
     there.spawn(turtlebot3("burger"), "tb3", 0.5)
     client = there.server.client()
@@ -128,8 +122,8 @@ def test_server_and_client_show_the_same(bench: Start) -> None:
     assert client.show().text == there.server.show().text
 
 
-def test_each_part_of_a_thing_has_its_own_colour(bench: Start) -> None:
-    def part(name: str, z: float, colour: str) -> str:
+def test_each_part_of_a_thing_has_its_own_colour(bench):
+    def part(name, z, colour):
         shape = "<geometry><box><size>0.2 0.2 0.2</size></box></geometry>"
         return f"""<link name="{name}"><pose>0 0 {z} 0 0 0</pose><collision name="c">{shape}</collision>
           <visual name="v">{shape}<material><diffuse>{colour} 1</diffuse></material></visual></link>"""

@@ -1,29 +1,23 @@
 """The script `gazebo_ros/spawn_model`, with the arguments that it has in Noetic."""
 
-from __future__ import annotations
-
 import math
-from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 
 from rosmini.core.packages import PackageIndex
 from rosmini.ros.scripts import ScriptSpec, run_scripts
 
-from .conftest import Bench, box, urdf
-
-Start = Callable[..., Bench]
+from .conftest import box, urdf
 
 
-def spawn_model(there: Bench, *words: object, stdin: str = "", duration: float = 20.0) -> int:
+def spawn_model(there, *words, stdin="", duration=20.0):
     """Its exit status."""
     path = PackageIndex().find_executable("gazebo_ros", "spawn_model").path
     spec = ScriptSpec(str(path), tuple(str(word) for word in words))
     return run_scripts([spec], graph=there.graph, stdin=stdin, duration=duration).status
 
 
-def test_from_a_parameter_with_a_pose_and_a_namespace(bench: Start) -> None:
+def test_from_a_parameter_with_a_pose_and_a_namespace(bench):
     there = bench()
     there.node.set_param("/robot_description", urdf())
     place = ("-x", 1, "-y", -2, "-z", 0.1, "-Y", 0.5)
@@ -34,14 +28,14 @@ def test_from_a_parameter_with_a_pose_and_a_namespace(bench: Start) -> None:
     assert ["/ns/scan", "sensor_msgs/LaserScan"] in there.graph.master.getTopicTypes("/x")[2]
 
 
-def test_its_own_namespace_is_the_robots(bench: Start) -> None:
+def test_its_own_namespace_is_the_robots(bench):
     there = bench()
     there.node.set_param("/tb/robot_description", urdf())
     assert spawn_model(there, "-urdf", "-param", "robot_description", "-model", "r", "__ns:=/tb") == 0
     assert ["/tb/scan", "sensor_msgs/LaserScan"] in there.graph.master.getTopicTypes("/x")[2]
 
 
-def test_from_a_file_and_from_the_standard_input(bench: Start, tmp_path: Path) -> None:
+def test_from_a_file_and_from_the_standard_input(bench, tmp_path):
     there = bench()
     path = tmp_path / "box.sdf"
     path.write_text(box(), encoding="utf-8")
@@ -51,9 +45,7 @@ def test_from_a_file_and_from_the_standard_input(bench: Start, tmp_path: Path) -
     assert [there.pose(name)[0] for name in "abc"] == [1.0, 2.0, 3.0]
 
 
-def test_a_robot_whose_meshes_are_missing_comes_without_them(
-    bench: Start, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_robot_whose_meshes_are_missing_comes_without_them(bench, tmp_path, capsys):
     there = bench()
     shapes = "".join(
         f'<{tag}><geometry><mesh filename="package://nowhere/{tag}.dae"/></geometry></{tag}>'
@@ -70,7 +62,7 @@ def test_a_robot_whose_meshes_are_missing_comes_without_them(
     assert said.count("there is no package 'nowhere'") == 2
 
 
-def test_time_goes_on_afterwards(bench: Start, tmp_path: Path) -> None:
+def test_time_goes_on_afterwards(bench, tmp_path):
     there = bench("empty", "-u")
     path = tmp_path / "box.sdf"
     path.write_text(box(), encoding="utf-8")
@@ -78,7 +70,7 @@ def test_time_goes_on_afterwards(bench: Start, tmp_path: Path) -> None:
     assert not there.server.world.paused
 
 
-def test_it_waits_for_another_model(bench: Start, tmp_path: Path) -> None:
+def test_it_waits_for_another_model(bench, tmp_path):
     there = bench()
     path = tmp_path / "box.sdf"
     path.write_text(box(), encoding="utf-8")
@@ -86,7 +78,7 @@ def test_it_waits_for_another_model(bench: Start, tmp_path: Path) -> None:
     assert spawn_model(there, "-sdf", "-file", path, "-model", "a", "-wait", "first") == 0
 
 
-def test_it_takes_the_model_along_when_it_ends(bench: Start, tmp_path: Path) -> None:
+def test_it_takes_the_model_along_when_it_ends(bench, tmp_path):
     there = bench()
     path = tmp_path / "box.sdf"
     path.write_text(box(), encoding="utf-8")
@@ -94,7 +86,7 @@ def test_it_takes_the_model_along_when_it_ends(bench: Start, tmp_path: Path) -> 
     assert "a" not in there.server.world.models
 
 
-def test_failures_have_a_status_and_a_reason(bench: Start, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_failures_have_a_status_and_a_reason(bench, tmp_path, capsys):
     there = bench()
     assert spawn_model(there, "-sdf", "-file", tmp_path / "none", "-model", "a") == 1
     assert spawn_model(there, "-urdf", "-param", "none", "-model", "a") == 1

@@ -1,7 +1,5 @@
 """Hulls, cuts through meshes, and plane regions taken apart."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -10,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.geometry import polygons
-from rosmini.sim.geometry.slices import convex_hull, cut, loops, pieces, thinned, within
+from rosmini.sim.geometry.slices import convex_hull, cut, loops, pieces
 
 number = st.integers(-40, 40).map(lambda v: v / 8)
 points = st.lists(st.tuples(number, number), min_size=3, max_size=30).map(np.array)
@@ -71,33 +69,3 @@ def test_pieces_cover_what_is_inside_by_the_even_odd_rule(drawn, seed):
         cover += polygons.inside(places, own) & ~near
         places, cover = places[~near], cover[~near]
     assert (cover == polygons.inside(places, sides)).all()
-
-
-def test_an_outline_that_is_alone_stays_whole():
-    ell = np.array([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], dtype=float)
-    (piece,) = pieces([ell[::-1]])
-    assert polygons.area(piece) == 3
-    assert len(pieces([ell, ell + (5, 0)])) == 2
-
-
-def test_thinning_keeps_what_is_far_from_the_line():
-    angles = np.linspace(0, 2 * math.pi, 400, endpoint=False)
-    circle = np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    thin = thinned(circle, 0.01)
-    assert 12 <= len(thin) <= 40
-    assert polygons.distances(circle, polygons.sides_of(thin)).max() <= 0.01 + 1e-12
-    assert thinned(circle[:4], 1.0) is not None
-
-
-@given(points.map(lambda cloud: cloud[:2]), st.tuples(number, number))
-def test_a_side_passes_through_a_square_where_points_of_it_are_inside(ends, centre):
-    side = np.array([[*ends[0], *ends[1]]])
-    half = 0.5
-    along = np.linspace(0, 1, 2001)[:, None]
-    inside = (np.abs(ends[0] + along * (ends[1] - ends[0]) - centre) < half - 1e-9).all(axis=1).any()
-    if (ends[0] == ends[1]).all():
-        return
-    if inside:
-        assert within(np.array([centre]), half, side)[0]
-    elif not (np.abs(ends[0] + along * (ends[1] - ends[0]) - centre) < half + 0.02).all(axis=1).any():
-        assert not within(np.array([centre]), half, side)[0]

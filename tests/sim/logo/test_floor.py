@@ -1,9 +1,5 @@
 """Logo drives a robot: by velocities, with feedback from odometry."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator
-
 import pytest
 
 from rosmini.book.trials import Trial
@@ -12,14 +8,14 @@ from rosmini.sim.logo.floor import FloorFlock
 
 
 @pytest.fixture
-def trial() -> Iterator[Trial]:
+def trial():
     with Trial("empty") as trial:
         trial.graph.run(0.5)
         yield trial
 
 
 def test_a_robot_drives_a_square_and_comes_home(trial):
-    lines: list[str] = []
+    lines = []
     logo = Logo.on(trial.graph.node("logo"), say=lines.append)
     assert isinstance(logo.flock, FloorFlock)
     logo.run("repeat 4 [forward 50 right 90] print distance [0 0] print heading")
@@ -35,7 +31,7 @@ def test_a_robot_drives_a_square_and_comes_home(trial):
 
 
 def test_backwards_a_whole_turn_and_to_points(trial):
-    lines: list[str] = []
+    lines = []
     logo = Logo.on(trial.graph.node("logo"), say=lines.append)
     start = trial.robot.truth()[2]
     logo.run("back 20 show pos right 360")

@@ -1,14 +1,10 @@
 """Logo drives the turtles of turtlesim: in one process, in simulated time."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator
 from math import pi
 
 import pytest
 
 from rosmini import Graph
-from rosmini.core.graph import Node
 from rosmini.msgs import service_class
 from rosmini.sim.logo import Logo, LogoError
 from rosmini.sim.turtlesim.node import TurtleSim
@@ -17,31 +13,31 @@ MIDDLE = 499 / 90
 
 
 @pytest.fixture
-def graph() -> Iterator[Graph]:
+def graph():
     with Graph(strict=False) as graph:
         yield graph
 
 
 @pytest.fixture
-def sim(graph: Graph) -> TurtleSim:
+def sim(graph):
     made = TurtleSim(graph.node("turtlesim"))
     graph.run(0.1)
     return made
 
 
 @pytest.fixture
-def node(graph: Graph) -> Node:
+def node(graph):
     return graph.node("logo")
 
 
-def place(sim: TurtleSim, name: str = "turtle1") -> tuple[float, float, float]:
+def place(sim, name="turtle1"):
     """Where a turtle is in the window, in steps from the middle, and its angle."""
     turtle = sim.frame.turtles[name]
     return 45 * (turtle.x - MIDDLE), 45 * (turtle.y - MIDDLE), turtle.theta
 
 
-def printed(logo: Logo, program: str) -> list[str]:
-    lines: list[str] = []
+def printed(logo, program):
+    lines = []
     logo.state.say = lines.append
     logo.run(program)
     return lines

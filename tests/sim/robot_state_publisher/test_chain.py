@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from rosmini.core.tf.rigid import matrix
 from rosmini.sim.robot_state_publisher import Chain, joint_transform
-from rosmini.sim.urdf import Joint, Mimic, Origin, load
+from rosmini.sim.urdf import Joint, Origin, load
 
 numbers = st.floats(-5, 5)
 vectors = st.tuples(numbers, numbers, numbers)
@@ -45,7 +45,3 @@ def test_what_is_sent_of_a_robot():
     # One that mimics and is told of itself stands where it is told; nothing is said of what is not known.
     assert 2 * math.asin({c: t for _, c, t in chain.transforms({"z": 0.5, "m1": 0.2})}["d"][3]) == pytest.approx(0.2)
     assert chain.transforms({}) == []
-
-
-def test_mimic_is_frozen_data():
-    assert Mimic("a") == Mimic("a", 1.0, 0.0)

@@ -1,7 +1,5 @@
 """Meshes: triangles of files, and what a flat world has of them."""
 
-from __future__ import annotations
-
 import re
 import struct
 
@@ -11,7 +9,6 @@ import pytest
 from assets.generate.meshes.shapes import box as solid
 from assets.generate.meshes.shapes import join
 from rosmini.sim.sdf import converted, load, to_obstacles, to_world
-from rosmini.sim.urdf.meshes import MeshError, read
 from rosmini.sim.world import World
 
 # A table: a top of 1 m by 0.6 m at a height from 0.7 to 0.75 m on one foot of 0.1 m by 0.1 m.
@@ -30,84 +27,6 @@ TABLE = np.concatenate([box(*TOP), box(*FOOT)])
 def binary_stl(triangles):
     records = b"".join(struct.pack("<12fH", 0, 0, 0, *triangle.ravel(), 0) for triangle in triangles)
     return b"solid or not" + bytes(68) + struct.pack("<I", len(triangles)) + records
-
-
-def text_stl(triangles):
-    lines = ["solid s"]
-    for triangle in triangles:
-        lines += [
-            "facet normal 0 0 0",
-            "outer loop",
-            *(f"vertex {x!r} {y!r} {z!r}" for x, y, z in triangle.tolist()),
-            "endloop",
-            "endfacet",
-        ]
-    return "\n".join([*lines, "endsolid s"]).encode()
-
-
-def obj(*parts):
-    lines, count = [], 0
-    for i, triangles in enumerate(parts, 1):
-        lines.append(f"o part{i}")
-        lines += [f"v {x!r} {y!r} {z!r}" for x, y, z in triangles.reshape(-1, 3).tolist()]
-        lines += [
-            f"f {count + 3 * k + 1}/1/1 {count + 3 * k + 2}//2 {count + 3 * k + 3}" for k in range(len(triangles))
-        ]
-        count += 3 * len(triangles)
-    return "\n".join(lines).encode()
-
-
-def dae(triangles, *, unit=1.0, up="Z_UP", node="<matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</matrix>", kind="triangles"):
-    numbers = " ".join(repr(v) for v in triangles.ravel().tolist())
-    count = len(triangles) * 3
-    order = " ".join(f"{i} 0" for i in range(count))
-    vcount = f"<vcount>{'3 ' * len(triangles)}</vcount>" if kind == "polylist" else ""
-    return f"""<?xml version="1.0"?><COLLADA version="1.4.1"><asset><unit meter="{unit}"/>
-      <up_axis>{up}</up_axis></asset>
-    <library_geometries><geometry id="g"><mesh><source id="p">
-      <float_array id="a" count="{count * 3}">{numbers}</float_array></source>
-    <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-    <{kind} count="{len(triangles)}"><input semantic="VERTEX" source="#v" offset="0"/>
-      <input semantic="NORMAL" source="#p" offset="1"/>{vcount}<p>{order}</p></{kind}>
-    </mesh></geometry></library_geometries>
-    <library_visual_scenes><visual_scene id="s"><node name="n">{node}<instance_geometry url="#g"/></node>
-      </visual_scene></library_visual_scenes>
-    </COLLADA>""".encode()
-
-
-def load_mesh(path, part=""):
-    return np.concatenate([surface.triangles for surface in read(path, part)])
-
-
-@pytest.mark.parametrize(
-    ("name", "data"),
-    [
-        ("m.stl", binary_stl(TABLE)),
-        ("m.STL", text_stl(TABLE)),
-        ("m.obj", obj(TABLE)),
-        ("m.dae", dae(TABLE)),
-        ("m.dae", dae(TABLE, kind="polylist")),
-        ("m.dae", dae(TABLE * 100, unit=0.01)),
-        ("m.dae", dae(TABLE, up="Y_UP")),
-        ("m.dae", dae(TABLE / 2 - (1, 0, 0), node="<scale>2 2 2</scale><translate>1 0 0</translate>")),
-        ("m.dae", dae(TABLE @ np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]]), node="<rotate>0 0 1 90</rotate>")),
-    ],
-)
-def test_every_kind_of_mesh_gives_its_triangles(tmp_path, name, data):
-    (tmp_path / name).write_bytes(data)
-    found = load_mesh(tmp_path / name)
-    assert found.shape == TABLE.shape
-    assert found.reshape(-1, 3).min(axis=0) == pytest.approx(TABLE.reshape(-1, 3).min(axis=0), abs=1e-6)
-    assert found.reshape(-1, 3).max(axis=0) == pytest.approx(TABLE.reshape(-1, 3).max(axis=0), abs=1e-6)
-
-
-def test_one_part_of_a_mesh(tmp_path):
-    (tmp_path / "m.obj").write_bytes(obj(box(*TOP), box(*FOOT)))
-    assert load_mesh(tmp_path / "m.obj", "part2").max() == pytest.approx(0.7)
-    (tmp_path / "m.dae").write_bytes(dae(TABLE))
-    assert len(load_mesh(tmp_path / "m.dae", "n")) == 24
-    with pytest.raises(MeshError, match="called 'other'"):
-        load_mesh(tmp_path / "m.dae", "other")
 
 
 def world_of(mesh, *, static=True, pose="0 0 0 0 0 0", scale="1 1 1"):

@@ -1,7 +1,5 @@
 """A bumper tells on which side a robot touches something."""
 
-from __future__ import annotations
-
 import math
 
 import pytest
@@ -44,8 +42,3 @@ def test_a_light_touch_is_not_felt_by_a_stiff_bumper():
     stiff = BumperModel((Sector("all", -math.pi, math.pi, 1),), force=2.0)
     assert names(stiff, (0, 0, 0), ((0.1, 0.0), 1.9)) == []
     assert names(stiff, (0, 0, 0), ((0.1, 0.0), 2.0)) == ["all"]
-
-
-def test_angles_count_from_the_middle_of_the_bumper():
-    ahead = BumperModel((Sector("front", -1.0, 1.0, 1),), centre=(-0.064, 0.0))
-    assert names(ahead, (0, 0, 0), ((-0.03, 0.0), 1.0)) == ["front"]

@@ -1,7 +1,5 @@
 """Stage's world files: what they may say, what it means, and what is told of those that are broken."""
 
-from __future__ import annotations
-
 import contextlib
 import math
 import os
@@ -30,13 +28,13 @@ PATH = Path("a.world")
 WORLDS = sorted((PackageIndex().path("stage_ros") / "world").glob("*.world"))
 
 
-def parsed(text: str):
+def parsed(text):
     return parse(tokens(text, PATH), PATH)
 
 
 @pytest.fixture
-def world(tmp_path: Path):
-    def make(text: str, name: str = "a.world"):
+def world(tmp_path):
+    def make(text, name="a.world"):
         path = tmp_path / name
         path.parent.mkdir(exist_ok=True, parents=True)
         path.write_text(text, encoding="utf-8")
@@ -45,64 +43,15 @@ def world(tmp_path: Path):
     return make
 
 
-def robot(text: str) -> str:
+def robot(text):
     return f"position( ranger( sensor( {text} ) ) )"
 
 
 # ---- the grammar ----
 
 
-def test_words_have_their_lines():
-    found = [(word.kind, word.text, word.place.line) for word in tokens('a 1 # ( "\n\nb[3] "x y"\r\n( -.5 ]', PATH)]
-    assert found == [("word", "a", 1), ("number", "1", 1), ("word", "b[3]", 3), ("string", "x y", 3), ("(", "(", 4),
-        ("number", "-.5", 4), ("]", "]", 4)]  # fmt: skip
-
-
-NAMES = st.text("abcdef_-.", min_size=1, max_size=6).map(lambda rest: "n" + rest)
-NUMBERS = st.floats(-1e6, 1e6).map(lambda number: float(f"{number:.6f}"))
-STRINGS = st.text(st.characters(exclude_characters='"\n\r', exclude_categories=["Cs", "Cc"]), max_size=8)
-VALUES = st.one_of(NUMBERS, STRINGS, st.lists(st.one_of(NUMBERS, STRINGS), max_size=4))
-ENTITIES = st.recursive(
-    st.fixed_dictionaries({"kind": NAMES, "properties": st.dictionaries(NAMES, VALUES, max_size=3),
-        "children": st.just([])}),
-    lambda inner: st.fixed_dictionaries({"kind": NAMES, "properties": st.dictionaries(NAMES, VALUES, max_size=3),
-        "children": st.lists(inner, max_size=3)}),
-    max_leaves=8,
-)  # fmt: skip
-GAPS = st.sampled_from([" ", "\n", ' # a remark ( [ "\n', "\t\r\n  "])
-
-
-def written(value, gap: str) -> str:
-    if isinstance(value, list):
-        return "[" + gap + gap.join(written(each, gap) for each in value) + gap + "]"
-    return f'"{value}"' if isinstance(value, str) else f"{value:.6f}"
-
-
-def as_text(entity, gap: str) -> str:
-    inner = [f"{name} {written(value, gap)}" for name, value in entity["properties"].items()]
-    inner += [as_text(child, gap) for child in entity["children"]]
-    return f"{entity['kind']}{gap}({gap}{gap.join(inner)}{gap})"
-
-
-def as_data(entity):
-    properties = {name: list(p.values) for name, p in entity.properties.items()}
-    return {"kind": entity.kind, "properties": properties,
-        "children": [as_data(child) for child in entity.children]}  # fmt: skip
-
-
-def in_lists(entity):
-    """The same entity with every value in a list, as the parser keeps them."""
-    properties = {name: value if isinstance(value, list) else [value] for name, value in entity["properties"].items()}
-    return {**entity, "properties": properties, "children": [in_lists(child) for child in entity["children"]]}
-
-
-@given(ENTITIES, GAPS)
-def test_what_is_written_is_read(entity, gap: str):
-    assert [as_data(each) for each in parsed(as_text(entity, gap)).root.children] == [in_lists(entity)]
-
-
 @given(st.text('ab1.-"#[]() \n', max_size=40))
-def test_whatever_is_written_is_read_or_refused_with_its_line(text: str):
+def test_whatever_is_written_is_read_or_refused_with_its_line(text):
     with contextlib.suppress(StageError):
         parsed(text)
         return
@@ -147,7 +96,7 @@ def test_a_definition_may_be_used_before_its_base_is_defined_and_the_first_one_s
         ("define a model ( a( ) )\na( )", 1, "a is defined by itself"),
     ],
 )  # fmt: skip
-def test_broken_files_name_their_line(text: str, line: int, words: str):
+def test_broken_files_name_their_line(text, line, words):
     with pytest.raises(StageError) as caught:
         parsed(text)
     assert str(caught.value).startswith(f"a.world:{line}: ")
@@ -170,7 +119,7 @@ def test_broken_files_name_their_line(text: str, line: int, words: str):
         'position ( name "secret" size [1 1 1] ranger ( sensor ( samples 1000000000 ) ) )',
     ],
 )
-def test_errors_do_not_quote_a_file_that_is_included(text: str, name: str, tmp_path: Path):
+def test_errors_do_not_quote_a_file_that_is_included(text, name, tmp_path):
     (tmp_path / name).write_text(f"\n{text}\n", encoding="utf-8")
     world = tmp_path / "a.world"
     world.write_text(f'include "{name}"\n', encoding="utf-8")
@@ -194,7 +143,7 @@ def test_errors_do_not_quote_a_file_that_is_included(text: str, name: str, tmp_p
         'position ( name "secret" laser ( ) ranger ( ) mass -1 )',
     ],
 )
-def test_notes_do_not_quote_a_file_that_is_included(text: str, tmp_path: Path):
+def test_notes_do_not_quote_a_file_that_is_included(text, tmp_path):
     Image.new("L", (4, 4), 255).save(tmp_path / "secret.png")
     (tmp_path / "passwd").write_text(f"\n{text}\n", encoding="utf-8")
     world = tmp_path / "a.world"
@@ -203,21 +152,10 @@ def test_notes_do_not_quote_a_file_that_is_included(text: str, tmp_path: Path):
     assert "secret" not in " ".join([*read.notes, *read.left_out])
 
 
-def test_definitions_that_explode_are_refused():
-    levels = [f"define m{i} model ( {f'm{i - 1}( ) ' * 10} )" for i in range(1, 12)]
-    with pytest.raises(StageError, match="more than 100000 entities"):
-        parsed("define m0 model ( )\n" + "\n".join(levels) + "\nm11( )")
-
-
-def test_files_that_nest_too_deep_are_refused():
-    with pytest.raises(StageError, match="nested more than 100 deep"):
-        parsed("model( " * 5000 + ")" * 5000)
-
-
 # ---- including ----
 
 
-def test_included_files_are_sought_beside_the_world_and_beside_the_file(tmp_path: Path, world, monkeypatch):
+def test_included_files_are_sought_beside_the_world_and_beside_the_file(tmp_path, world, monkeypatch):
     (tmp_path / "inc").mkdir()
     (tmp_path / "inc" / "a.inc").write_text('include "b.inc"\n', encoding="utf-8")
     (tmp_path / "inc" / "b.inc").write_text("\ndefine thing model ( size [1 2 3] colour 3 )\n", encoding="utf-8")
@@ -232,20 +170,6 @@ def test_included_files_are_sought_beside_the_world_and_beside_the_file(tmp_path
         world('include "inc/a.inc"\nthing( )\n')
     monkeypatch.setenv("STAGEPATH", str(tmp_path / "far"))
     assert len(world('include "inc/a.inc"\nthing( )\n').world.obstacles) == 1
-
-
-def test_what_includes_itself_is_refused(tmp_path: Path, world):
-    (tmp_path / "a.inc").write_text('\ninclude "b.inc"', encoding="utf-8")
-    (tmp_path / "b.inc").write_text('include "a.inc"', encoding="utf-8")
-    with pytest.raises(StageError, match=r"b.inc:1: .*includes itself"):
-        world('include "a.inc"')
-
-
-def test_a_file_that_is_not_there():
-    with pytest.raises(StageError, match=r"nowhere\.world:1: there is no such file"):
-        load("/nowhere.world")
-    with pytest.raises(RosminiError, match="stage_rose"):
-        load("package://stage_rose/world/willow-erratic.world")
 
 
 # ---- models ----
@@ -352,12 +276,12 @@ def test_what_nothing_notices_is_left_out_and_told(world):
 # ---- bitmaps ----
 
 
-def floorplan(tmp_path: Path, dark: np.ndarray, **options) -> None:
+def floorplan(tmp_path, dark, **options):
     pixels = np.where(dark, options.get("black", 0), options.get("white", 255)).astype(np.uint8)
     Image.fromarray(pixels).save(tmp_path / options.get("name", "plan.png"))
 
 
-def test_a_floor_plan_becomes_walls(tmp_path: Path, world):
+def test_a_floor_plan_becomes_walls(tmp_path, world):
     dark = np.zeros((40, 60), dtype=bool)
     dark[[0, -1], :] = dark[:, [0, -1]] = True  # a room
     dark[10:20, 30] = True  # with a wall in it, in the upper half of the picture
@@ -373,7 +297,7 @@ def test_a_floor_plan_becomes_walls(tmp_path: Path, world):
     assert stage.notes == ()
 
 
-def test_a_floor_plan_that_robots_pass_through_is_seen_by_lasers(tmp_path: Path, world):
+def test_a_floor_plan_that_robots_pass_through_is_seen_by_lasers(tmp_path, world):
     dark = np.zeros((40, 40), dtype=bool)
     dark[[0, -1], :] = dark[:, [0, -1]] = True
     floorplan(tmp_path, dark)
@@ -391,7 +315,7 @@ def test_a_floor_plan_that_robots_pass_through_is_seen_by_lasers(tmp_path: Path,
     assert engine.robots["car"].pose[0] < -2.1
 
 
-def test_white_margins_are_not_counted(tmp_path: Path, world):
+def test_white_margins_are_not_counted(tmp_path, world):
     dark = np.zeros((40, 60), dtype=bool)
     dark[10:30, 20:50] = True
     floorplan(tmp_path, dark)
@@ -400,7 +324,7 @@ def test_white_margins_are_not_counted(tmp_path: Path, world):
     assert "of the bitmap's 60 x 40 pixels the 30 x 20" in stage.notes[0]
 
 
-def test_a_boundary_is_a_frame(tmp_path: Path, world):
+def test_a_boundary_is_a_frame(tmp_path, world):
     dark = np.zeros((40, 60), dtype=bool)
     dark[[0, 39], [0, 59]] = True
     floorplan(tmp_path, dark)
@@ -410,7 +334,7 @@ def test_a_boundary_is_a_frame(tmp_path: Path, world):
     assert stage.world.blocked((2.99, 0.0, 0.0), 0.05) is not None
 
 
-def test_a_second_bitmap_is_filled(tmp_path: Path, world):
+def test_a_second_bitmap_is_filled(tmp_path, world):
     ring = np.ones((20, 20), dtype=bool)
     ring[5:15, 5:15] = False
     floorplan(tmp_path, ring)
@@ -492,7 +416,7 @@ def test_bounds_and_odometry(world):
         ("interval_sim []", "there is none in its brackets"),
     ],
 )  # fmt: skip
-def test_what_is_not_possible_names_file_and_line(tmp_path: Path, world, text: str, words: str):
+def test_what_is_not_possible_names_file_and_line(tmp_path, world, text, words):
     (tmp_path / "text.png").write_text("no picture", encoding="utf-8")
     with pytest.raises(StageError) as caught:
         world("\n\n" + text)
@@ -539,7 +463,7 @@ def test_what_is_not_possible_names_file_and_line(tmp_path: Path, world, text: s
         ("name [ 1", "the [ after name has no ]"),
     ],
 )  # fmt: skip
-def test_what_stage_accepts_is_read_with_a_note(tmp_path: Path, world, text: str, words: str):
+def test_what_stage_accepts_is_read_with_a_note(tmp_path, world, text, words):
     Image.new("L", (3, 3), 255).save(tmp_path / "white.png")
     notes = world("\n\n" + text).notes
     assert any(note.startswith(f"{tmp_path / 'a.world'}:3: ") and words in note for note in notes), notes
@@ -553,7 +477,7 @@ def test_numbers_and_strings_stand_for_each_other(world):
     assert stage.notes == ()
 
 
-def test_a_bitmap_and_blocks_make_one_body(tmp_path: Path, world):
+def test_a_bitmap_and_blocks_make_one_body(tmp_path, world):
     Image.fromarray(np.zeros((10, 10), dtype=np.uint8)).save(tmp_path / "plan.png")
     block = "block( points 4 point[0] [1 -0.5] point[1] [2 -0.5] point[2] [2 0.5] point[3] [1 0.5] )"
     stage = world(f'model( bitmap "plan.png" size [2 2 1] {block} )')
@@ -591,7 +515,7 @@ def test_colours_are_those_of_x11():
 
 
 @pytest.mark.parametrize("path", WORLDS, ids=lambda path: path.stem)
-def test_our_own_worlds_say_nothing_odd(path: Path):
+def test_our_own_worlds_say_nothing_odd(path):
     stage = load(path)
     assert stage.notes == ()
     assert stage.robots
@@ -600,29 +524,6 @@ def test_our_own_worlds_say_nothing_odd(path: Path):
 
 
 # ---- what wants to break something ----
-
-
-def test_includes_that_fan_out_end(tmp_path, monkeypatch):
-    monkeypatch.setattr("rosmini.sim.stage.tokens.MAX_FILES", 100)
-    for i in range(20):
-        (tmp_path / f"{i}.inc").write_text(2 * f'include "{i + 1}.inc"\n', encoding="utf-8")
-    (tmp_path / "20.inc").write_text("", encoding="utf-8")
-    with pytest.raises(StageError, match=r"inc:1: the world includes more than 100 files"):
-        load(tmp_path / "0.inc")
-
-
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="pipes with names are a matter of POSIX")
-def test_what_is_no_file_is_not_opened(tmp_path):
-    os.mkfifo(tmp_path / "pipe.world")
-    (tmp_path / "a.world").write_text('include "pipe.world"', encoding="utf-8")
-    (tmp_path / "b.world").write_text('model( bitmap "/dev/zero" )', encoding="utf-8")
-    for name, said in (
-        ("pipe.world", "this is no file"),
-        ("a.world", "there is no file"),
-        ("b.world", "there is no bitmap"),
-    ):
-        with pytest.raises(StageError, match=said):
-            load(tmp_path / name)
 
 
 @pytest.mark.parametrize("name", ["~nobody_has_this_name/a", "a\0b", "x" * 5000, "~x", "/" * 5000, "."])
@@ -638,19 +539,50 @@ def test_no_name_of_a_file_breaks_more_than_its_world(tmp_path, name):
         load(path)
 
 
-def test_a_bitmap_of_too_many_pixels_is_refused_by_its_header(tmp_path):
-    (tmp_path / "a.pgm").write_bytes(b"P5 100000 100000 255\n")
-    (tmp_path / "a.world").write_text('model( bitmap "a.pgm" )', encoding="utf-8")
-    with pytest.raises(StageError, match=r"a.world:1: the bitmap .*a.pgm cannot be read: it has too many pixels"):
+EXPLODING = "\n".join(f"define m{i} model ( {f'm{i - 1}( ) ' * 10} )" for i in range(1, 12))
+
+
+@pytest.mark.parametrize(
+    ("files", "said"),
+    [
+        ({"a.world": f"define m0 model ( )\n{EXPLODING}\nm11( )"}, "more than 100000 entities"),
+        ({"a.world": "model( " * 5000 + ")" * 5000}, "nested more than 100 deep"),
+        ({"a.world": 'include "b.inc"', "b.inc": '\ninclude "a.world"'}, r"b.inc:2: .*includes itself"),
+        (
+            {"a.world": 'include "0.inc"', "20.inc": ""}
+            | {f"{i}.inc": 2 * f'include "{i + 1}.inc"\n' for i in range(20)},
+            r"inc:1: the world includes more than 100 files",
+        ),
+        ({"a.world": 'model( bitmap "b.pgm" )', "b.pgm": "P5 100000 100000 255\n"}, r"a.world:1: .*too many pixels"),
+        ({"a.world": "position()\nposition()\nposition()"}, r"a.world:3: there are more than 2 robots"),
+        ({"a.world": 'model( bitmap "/dev/zero" )'}, "there is no bitmap"),
+        ({}, r"a.world:1: there is no such file"),
+    ],
+)
+def test_worlds_have_limits(tmp_path, monkeypatch, files, said):
+    monkeypatch.setattr("rosmini.sim.stage.tokens.MAX_FILES", 100)
+    monkeypatch.setattr("rosmini.sim.stage.world_file.MAX_ROBOTS", 2)
+    for name, text in files.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    with pytest.raises(StageError, match=said):
         load(tmp_path / "a.world")
 
 
-def test_robots_have_a_number_and_a_world_to_stand_in(tmp_path, monkeypatch):
-    monkeypatch.setattr("rosmini.sim.stage.world_file.MAX_ROBOTS", 2)
-    path = tmp_path / "a.world"
-    path.write_text("position()\nposition()\nposition()", encoding="utf-8")
-    with pytest.raises(StageError, match=r"a.world:3: there are more than 2 robots"):
-        load(path)
+def test_a_package_that_does_not_exist_is_named():
+    with pytest.raises(RosminiError, match="stage_rose"):
+        load("package://stage_rose/world/willow-erratic.world")
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="pipes with names are a matter of POSIX")
+def test_what_is_no_file_is_not_opened(tmp_path):
+    os.mkfifo(tmp_path / "pipe.world")
+    (tmp_path / "a.world").write_text('include "pipe.world"', encoding="utf-8")
+    for name, said in (("pipe.world", "this is no file"), ("a.world", "there is no file")):
+        with pytest.raises(StageError, match=said):
+            load(tmp_path / name)
+
+
+def test_a_robot_outside_of_the_world_is_noted(tmp_path, world):
     Image.fromarray(np.pad(np.full((20, 20), 255, dtype=np.uint8), 1)).save(tmp_path / "plan.png")
-    path.write_text('model( size [10 10 1] bitmap "plan.png" )\nposition( pose [50 0 0 0] name "r" )', encoding="utf-8")
-    assert "a.world:2: r starts outside: (50, 0) is outside of the world 'a'" in load(path).notes[0]
+    text = 'model( size [10 10 1] bitmap "plan.png" )\nposition( pose [50 0 0 0] name "r" )'
+    assert "a.world:2: r starts outside: (50, 0)" in world(text).notes[0]

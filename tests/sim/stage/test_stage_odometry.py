@@ -1,9 +1,6 @@
 """Stage's odometry, against its equation and its distribution."""
 
-from __future__ import annotations
-
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,8 +10,8 @@ from rosmini.sim.stage.odometry import StageOdometry, draw_errors
 
 
 @pytest.fixture
-def robot(tmp_path: Path):
-    def make(text: str = ""):
+def robot(tmp_path):
+    def make(text=""):
         path = tmp_path / "a.world"
         path.write_text(f"position( {text} )", encoding="utf-8")
         return load(path).robots[0]
@@ -25,10 +22,10 @@ def robot(tmp_path: Path):
 class Fixed:
     """A generator that is wrong by a quarter of the largest error, or by another part."""
 
-    def __init__(self, part: float = 0.25) -> None:
+    def __init__(self, part=0.25):
         self.part = part
 
-    def uniform(self, low: float, high: float, size: int):
+    def uniform(self, low, high, size):
         assert low <= self.part <= high
         return np.full(size, self.part)
 

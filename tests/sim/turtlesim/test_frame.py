@@ -1,41 +1,14 @@
 """Turtles of one window, without a graph."""
 
-from __future__ import annotations
-
 import json
 
 import pytest
 
-from rosmini.sim.turtlesim import Frame, TurtleError
-from rosmini.sim.turtlesim.turtle import START, STEP_S
+from rosmini.sim.turtlesim import Frame
+from rosmini.sim.turtlesim.turtle import STEP_S
 
 
-def test_names_are_given_in_order_and_not_twice() -> None:
-    frame = Frame()
-    assert [frame.spawn(*START).name for _ in range(2)] == ["turtle1", "turtle2"]
-    frame.spawn(*START, "turtle3")
-    assert frame.spawn(*START).name == "turtle4"
-    frame.kill("turtle4")
-    assert frame.spawn(*START).name == "turtle5"
-    assert list(frame.turtles) == ["turtle1", "turtle2", "turtle3", "turtle5"]
-    assert len(frame.reset()) == 4
-    assert frame.spawn(*START).name == "turtle1"
-
-
-def test_what_cannot_be_is_said() -> None:
-    frame = Frame()
-    frame.spawn(*START, "ann")
-    with pytest.raises(TurtleError, match="there is a turtle ann already"):
-        frame.spawn(*START, "ann")
-    with pytest.raises(TurtleError, match="no turtle 'anne': did you mean ann"):
-        frame.kill("anne")
-    with pytest.raises(TurtleError, match="finite"):
-        frame.spawn(float("nan"), 0.0, 0.0)
-    assert list(frame.turtles) == ["ann"]
-    assert frame.spawn(*START).name == "turtle1"  # what was refused got no number
-
-
-def test_a_canvas_gets_what_is_new() -> None:
+def test_a_canvas_gets_what_is_new():
     frame = Frame((1, 2, 3))
     turtle = frame.spawn(1.0, 1.0, 0.0)
     turtle.command(1.0, 0.0, 0.0)

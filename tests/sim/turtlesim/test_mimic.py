@@ -1,14 +1,12 @@
 """`turtlesim/mimic`: the second turtle does what the first does."""
 
-from __future__ import annotations
-
 import pytest
 
 from rosmini import Graph, rosrun
 from rosmini.msgs.geometry_msgs.msg import Twist
 
 
-def test_the_second_turtle_follows() -> None:
+def test_the_second_turtle_follows():
     with Graph() as graph:
         sim = rosrun("turtlesim", "turtlesim_node", graph=graph).instance()
         sim.spawn(2.0, 2.0, 0.0)

@@ -1,7 +1,5 @@
 """Scripts and launch files around turtlesim: `turtle_tf`, `turtle_tf2` and `turtlesim_cleaner`."""
 
-from __future__ import annotations
-
 import io
 import math
 
@@ -10,11 +8,11 @@ import pytest
 from rosmini import Graph, rosrun
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.ros.launch import roslaunch
-from rosmini.sim.turtlesim import TurtleSim, window
+from rosmini.sim.turtlesim import window
 
 
 @pytest.mark.parametrize("version", ["", "2"])
-def test_the_second_turtle_comes_after_the_first(version: str) -> None:
+def test_the_second_turtle_comes_after_the_first(version):
     with Graph() as graph:
         launch = roslaunch(f"turtle_tf{version}", f"turtle_tf{version}_demo.launch", graph=graph, console={"stdin": ""})
         graph.run(3.0)
@@ -36,7 +34,7 @@ def test_the_second_turtle_comes_after_the_first(version: str) -> None:
         launch.stop()
 
 
-def clean(script: str, typed: str, seconds: float) -> tuple[TurtleSim, str, int | None]:
+def clean(script, typed, seconds):
     out = io.StringIO()
     with Graph() as graph:
         sim = rosrun("turtlesim", "turtlesim_node", graph=graph).instance()
@@ -45,7 +43,7 @@ def clean(script: str, typed: str, seconds: float) -> tuple[TurtleSim, str, int 
         return sim, out.getvalue(), run.poll()
 
 
-def test_a_straight_line_and_a_turn() -> None:
+def test_a_straight_line_and_a_turn():
     sim, said, status = clean("move.py", "1\n3\ny\n", 6.0)
     assert (status, "moved 3.00 forward" in said) == (0, True)
     assert sim.turtles["turtle1"].x == pytest.approx(5.54 + 3.0, abs=0.1)
@@ -55,7 +53,7 @@ def test_a_straight_line_and_a_turn() -> None:
     assert clean("move.py", "0\n3\ny\n", 6.0)[1].rstrip().endswith("at the speed 0 the turtle never arrives")
 
 
-def test_to_a_goal() -> None:
+def test_to_a_goal():
     sim, said, status = clean("gotogoal.py", "1\n9\n0.1\n", 20.0)
     turtle = sim.turtles["turtle1"]
     assert (status, f"at ({turtle.x:.2f}, {turtle.y:.2f})" in said) == (0, True)
@@ -63,7 +61,7 @@ def test_to_a_goal() -> None:
     assert "the window is 11 by 11 metres" in clean("gotogoal.py", "50\n9\n0.1\n", 1.0)[1]
 
 
-def test_a_spiral_and_a_sweep() -> None:
+def test_a_spiral_and_a_sweep():
     sim, said, status = clean("spiral.py", "", 60.0)
     assert (status, "near a wall" in said) == (0, True)
     turtle = sim.turtles["turtle1"]

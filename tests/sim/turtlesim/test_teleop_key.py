@@ -1,19 +1,16 @@
 """`turtlesim/turtle_teleop_key`: arrow keys to velocities, with the real one's text."""
 
-from __future__ import annotations
-
 import io
 
 import pytest
 
 from rosmini import Graph, rosrun
-from rosmini.sim.turtlesim import TurtleSim
 
 UP, DOWN, RIGHT, LEFT = "\x1b[A", "\x1b[B", "\x1b[C", "\x1b[D"
 HEAD = "Reading from keyboard\n---------------------------\nUse arrow keys to move the turtle. 'q' to quit.\n"
 
 
-def drive(keys: object, seconds: float, *arguments: str) -> tuple[TurtleSim, str, int | None]:
+def drive(keys, seconds, *arguments):
     out = io.StringIO()
     with Graph() as graph:
         sim = rosrun("turtlesim", "turtlesim_node", graph=graph).instance()
@@ -22,7 +19,7 @@ def drive(keys: object, seconds: float, *arguments: str) -> tuple[TurtleSim, str
         return sim, out.getvalue(), teleop.poll()
 
 
-def test_keys_at_their_times_and_q() -> None:
+def test_keys_at_their_times_and_q():
     sim, out, status = drive([(1.0, UP), (3.0, LEFT), (5.0, "x" + DOWN), (7.0, RIGHT), (7.2, "q")], 10.0)
     turtle = sim.turtles["turtle1"]
     assert (out, status) == (HEAD, 0)
@@ -32,7 +29,7 @@ def test_keys_at_their_times_and_q() -> None:
     assert turtle.y == pytest.approx(start - 2.016 * 0.9026, abs=0.01)
 
 
-def test_keys_given_at_once_come_one_a_second() -> None:
+def test_keys_given_at_once_come_one_a_second():
     sim, _, status = drive("AAC", 10.0, "_unused:=1")
     turtle = sim.turtles["turtle1"]
     assert turtle.x == pytest.approx(5.544445 + 4.0, abs=0.05)
@@ -40,12 +37,12 @@ def test_keys_given_at_once_come_one_a_second() -> None:
     assert status == 0
 
 
-def test_without_a_keyboard_the_node_stays() -> None:
+def test_without_a_keyboard_the_node_stays():
     _, out, status = drive("", 5.0)
     assert (out, status) == (HEAD, None)
 
 
-def test_its_speeds_are_parameters() -> None:
+def test_its_speeds_are_parameters():
     out = io.StringIO()
     with Graph() as graph:
         sim = rosrun("turtlesim", "turtlesim_node", graph=graph).instance()

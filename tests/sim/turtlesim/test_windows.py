@@ -1,14 +1,12 @@
 """The turtlesim that runs in a graph is found."""
 
-from __future__ import annotations
-
 import pytest
 
 from rosmini import Graph, rosrun
 from rosmini.sim.turtlesim import TurtleError, window
 
 
-def test_the_one_that_runs_is_found_and_of_several_the_named_one() -> None:
+def test_the_one_that_runs_is_found_and_of_several_the_named_one():
     with Graph() as graph:
         with pytest.raises(TurtleError, match="rosrun turtlesim turtlesim_node"):
             window(graph=graph)

@@ -2,11 +2,8 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from rosmini.core.packages import PackageIndex
-from rosmini.core.tf import transformations
 from rosmini.sim.urdf import Box, Cylinder, Mesh, Sphere, UnknownJoint, UrdfError, load
 
 ARM = """<?xml version="1.0"?>
@@ -97,47 +94,6 @@ def test_joints_that_there_are_not(joints, message):
     with pytest.raises(UnknownJoint) as caught:
         load(ARM).transforms(joints)
     assert str(caught.value) == message
-
-
-numbers = st.floats(-3, 3)
-vectors = st.tuples(numbers, numbers, numbers)
-
-
-@st.composite
-def chains(draw):
-    """Joints of a chain, as a URDF and as matrices by tf.transformations."""
-    links, joints, matrices, positions = ['<link name="l0"/>'], [], [np.eye(4)], {}
-    for i in range(1, draw(st.integers(2, 6))):
-        parent = draw(st.integers(0, i - 1))
-        kind = draw(st.sampled_from(["continuous", "prismatic", "fixed"]))
-        xyz, rpy, q = draw(vectors), draw(vectors), draw(numbers)
-        axis = draw(vectors.filter(lambda v: np.linalg.norm(v) > 0.01))
-        links.append(f'<link name="l{i}"/>')
-        joints.append(
-            f'<joint name="j{i}" type="{kind}"><parent link="l{parent}"/><child link="l{i}"/>'
-            f'<origin xyz="{xyz[0]} {xyz[1]} {xyz[2]}" rpy="{rpy[0]} {rpy[1]} {rpy[2]}"/>'
-            f'<axis xyz="{axis[0]} {axis[1]} {axis[2]}"/><limit lower="-9" upper="9" effort="1" velocity="1"/></joint>'
-        )
-        own = transformations.compose_matrix(angles=rpy, translate=xyz)
-        if kind != "fixed":
-            positions[f"j{i}"] = q
-            unit = np.array(axis) / np.linalg.norm(axis)
-            own = own @ (
-                transformations.rotation_matrix(q, axis)
-                if kind == "continuous"
-                else transformations.translation_matrix(q * unit)
-            )
-        matrices.append(matrices[parent] @ own)
-    order = draw(st.permutations(links + joints))
-    return f'<robot name="r">{"".join(order)}</robot>', positions, matrices
-
-
-@given(chains())
-def test_forward_kinematics_as_tf_transformations_has_it(chain):
-    text, positions, matrices = chain
-    at = load(text).transforms(positions)
-    for i, matrix in enumerate(matrices):
-        assert np.allclose(at[f"l{i}"], matrix, atol=1e-9)
 
 
 def robot(inside, name="r"):
@@ -276,19 +232,6 @@ def test_inertias_of_no_body_are_noted(text, notes):
     found = load(robot(f'<link name="r"/><link name="a">{text}</link>{joint("j", "r", "a")}')).notes
     assert len(found) == len(notes)
     assert all(part in note for part, note in zip(notes, found, strict=True))
-
-
-@given(st.tuples(*[st.floats(0.1, 5)] * 3), st.floats(0.1, 10), vectors)
-def test_the_inertia_of_a_box_however_it_is_turned_is_that_of_a_body(size, mass, rpy):
-    a, b, c = (each * each for each in size)
-    own = np.diag([b + c, a + c, a + b]) * mass / 12
-    turn = transformations.euler_matrix(*rpy)[:3, :3]
-    m = turn @ own @ turn.T
-    text = (
-        f'<inertial><mass value="{mass}"/><inertia ixx="{m[0, 0]}" ixy="{m[0, 1]}" ixz="{m[0, 2]}" iyy="{m[1, 1]}" '
-        f'iyz="{m[1, 2]}" izz="{m[2, 2]}"/></inertial>'
-    )
-    assert load(robot(f'<link name="r"/><link name="a">{text}</link>{joint("j", "r", "a")}')).notes == ()
 
 
 def test_doubtful_things_are_noted():

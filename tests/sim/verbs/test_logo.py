@@ -1,10 +1,7 @@
 """`rosmini logo`: files, programs that come along, and what is typed."""
 
-from __future__ import annotations
-
 import io
 from argparse import Namespace
-from pathlib import Path
 
 import pytest
 
@@ -17,10 +14,10 @@ from rosmini.tools.terminal import Terminal
 MIDDLE = 499 / 90
 
 
-def test_a_file_is_run_on_paper(tmp_path: Path) -> None:
+def test_a_file_is_run_on_paper(tmp_path):
     file = tmp_path / "mine.logo"
     file.write_text("repeat 2 [print repcount]\nfd 10", encoding="utf-8")
-    said: list[str] = []
+    said = []
     TOOL.run("--paper", str(file), say=said.append)
     assert said == ["1", "2"]
     result = TOOL.run("--paper", "-o", str(tmp_path / "it.svg"), str(file), say=said.append)
@@ -28,7 +25,7 @@ def test_a_file_is_run_on_paper(tmp_path: Path) -> None:
     assert (tmp_path / "it.svg").read_text(encoding="utf-8").startswith("<svg")
 
 
-def test_a_program_that_comes_along_drives_turtlesim() -> None:
+def test_a_program_that_comes_along_drives_turtlesim():
     from rosmini.sim.turtlesim.node import TurtleSim
 
     with Graph(strict=False) as graph:
@@ -41,7 +38,7 @@ def test_a_program_that_comes_along_drives_turtlesim() -> None:
         assert [name for name in graph.nodes if "logo" in name] == []
 
 
-def test_wrong_words(tmp_path: Path) -> None:
+def test_wrong_words(tmp_path):
     assert {"square", "tree", "koch", "dragon", "hilbert", "spiral", "star"} <= set(programs())
     with pytest.raises(RosminiError, match="did you mean square"):
         TOOL.run("--paper", "sqare")
@@ -58,7 +55,7 @@ def test_wrong_words(tmp_path: Path) -> None:
         TOOL.run("--paper", str(bad))
 
 
-def test_lines_are_typed(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_lines_are_typed(monkeypatch, capsys):
     typed = (
         "fd 10\nprint pos\nfrwd\nto twice :n\noutput 2 * :n\nend\nprint twice 4\nrepeat 2 [\nprint 1\n]\nbye\nprint 9\n"
     )
@@ -68,10 +65,8 @@ def test_lines_are_typed(monkeypatch: pytest.MonkeyPatch, capsys: pytest.Capture
     assert written == ("? ? 0 10\n? line 1: I don't know how to frwd; did you mean forward?\n? > > ? 8\n? > > 1\n1\n? ")
 
 
-def test_ctrl_c_ends_the_program_and_not_the_conversation(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    def pressed(*_: object) -> None:
+def test_ctrl_c_ends_the_program_and_not_the_conversation(monkeypatch, capsys):
+    def pressed(*_):
         raise KeyboardInterrupt
 
     monkeypatch.setattr("rosmini.sim.logo.turtles.Turtle.face", pressed)

@@ -1,7 +1,5 @@
 """`rosmini world`: what it lists, what it says about files, how it ends."""
 
-from __future__ import annotations
-
 import pytest
 
 import rosmini.tools.main as cli
@@ -124,17 +122,6 @@ def test_without_a_verb_or_a_file_it_says_how_it_is_used(arguments, status, said
     assert cli.main(["world", *arguments]) == status
     done = capsys.readouterr()
     assert said in (done.err if status else done.out)
-
-
-def test_what_gazebo_leaves_out_is_a_warning(tmp_path, capsys):
-    path = tmp_path / "w.world"
-    path.write_text(
-        "<sdf version='1.6'><world name='w'>\n<include><uri>model://none</uri></include></world></sdf>",
-        encoding="utf-8",
-    )
-    assert cli.main(["world", "check", str(path)]) == 0
-    assert "\n  warning: " in (said := capsys.readouterr().out)
-    assert "w.world:2: this model is left out: there is no model 'none'" in said
 
 
 def test_an_unconfined_xacro_needs_the_users_word(tmp_path, capsys):

@@ -1,7 +1,5 @@
 """The worlds that rosmini brings as SDF files: fresh, free where robots start, and wide enough for them everywhere."""
 
-from __future__ import annotations
-
 import math
 from itertools import pairwise
 
@@ -9,9 +7,7 @@ import numpy as np
 import pytest
 
 from rosmini.core.geometry import polygons
-from rosmini.sim.geometry.overlaps import Outline, Overlaps
 from rosmini.sim.sdf import SdfError, load
-from rosmini.sim.shapes import ROUND, outline_at
 from rosmini.sim.world import Door, Walk
 from rosmini.sim.worlds import kind_of, names, source, title, to_map, world
 
@@ -105,32 +101,6 @@ def test_what_a_file_is_hangs_on_what_stands_in_it(tmp_path):
     (tmp_path / "r.urdf").write_text("<robot name='r'><link name='l'/></robot>", encoding="utf-8")
     with pytest.raises(SdfError, match="URDF"):
         world(tmp_path / "r.urdf")
-
-
-@pytest.mark.parametrize("name", [*FILES, "room"])
-def test_fixed_things_do_not_stand_in_one_another(name):
-    """But for walls, which meet in corners; what is above something else is apart from it."""
-    parts = [
-        (each.name, shape, pose, each.bottom, each.height)
-        for each in world(name).obstacles
-        if each.fixed and each.colour != "wall" and not each.name.startswith("turtlebot3_world")
-        for shape, pose in each.parts()
-    ]
-    for i, (one, shape, pose, bottom, top) in enumerate(parts):
-        for other, other_shape, other_pose, other_bottom, other_top in parts[:i]:
-            if one.partition("::")[0] == other.partition("::")[0] or bottom >= other_top or other_bottom >= top:
-                continue
-            assert not overlap(shape, pose, other_shape, other_pose), (one, other)
-
-
-def overlap(shape, pose, other, place):
-    there = Overlaps()
-    there.insert("other", outline(other, place))
-    return there.find(outline(shape, pose))
-
-
-def outline(shape, pose):
-    return Outline(np.array([pose[:2]]), shape.radius) if isinstance(shape, ROUND) else Outline(outline_at(shape, pose))
 
 
 def test_what_moves_in_the_office_meets_nothing_that_stands():

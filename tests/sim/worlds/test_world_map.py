@@ -1,7 +1,5 @@
 """Maps of worlds, compared with what the worlds themselves say of each cell."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

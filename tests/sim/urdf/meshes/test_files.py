@@ -3,12 +3,9 @@ import struct
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from assets.generate.meshes import collada_writer
-from assets.generate.meshes.shapes import box, join, lathe, prism, rod
-from assets.generate.meshes.turtlebot3 import rounded
+from assets.generate.meshes.shapes import box, join, lathe
 from rosmini.sim.urdf.meshes import MeshError, read
 
 CUBE = join(box((1, 2, 3), (2, 4, 6)), "#ff8000", "cube")
@@ -18,34 +15,6 @@ def volume(surfaces):
     """By the divergence theorem: right only for a closed surface that looks outwards everywhere."""
     corners = np.vstack([surface.triangles for surface in surfaces])
     return float(np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum()) / 6
-
-
-def test_shapes_are_closed_and_look_outwards():
-    assert volume([CUBE]) == pytest.approx(48)
-    n = 24
-    disc = n / 2 * np.sin(2 * np.pi / n)
-    for axis in "xyz":
-        assert volume([rod(0.5, -1, 2, n, axis)]) == pytest.approx(0.25 * disc * 3)
-    assert volume([lathe([(0, 0), (1, 0), (0, 3)], n)]) == pytest.approx(disc)
-    plate = prism(rounded(2, 1, 0.25, 9), 0, 0.1)
-    assert volume(plate) == pytest.approx(0.1 * (2 - (4 - np.pi) * 0.0625), rel=1e-3)
-
-
-@given(st.floats(0.1, 2), st.floats(0.1, 2), st.sampled_from("xyz"))
-def test_normals_look_where_faces_do(radius, height, axis):
-    surface = lathe([(0, 0), (radius, 0), (radius / 2, height), (0, height)], 12, axis)
-    corners = surface.triangles
-    flat = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    assert (np.einsum("ij,ikj->ik", flat, surface.normals[surface.faces]) > 0).all()
-
-
-def test_moving_keeps_what_is_outside_outside():
-    mirror = np.diag([-1.0, 2, 1, 1])
-    moved = CUBE.moved(mirror)
-    assert volume([moved]) == pytest.approx(96)
-    low, high = moved.bounds
-    assert (low.tolist(), high.tolist()) == ([-2, 0, 0], [0, 8, 6])
-    assert np.allclose(np.linalg.norm(moved.normals, axis=1), 1)
 
 
 def test_collada_is_read_back(tmp_path):
@@ -238,3 +207,15 @@ def test_obj(tmp_path):
     path.write_text("# quad\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1/1/1 2/2/1 3//1 -1\n", encoding="utf-8")
     (surface,) = read(path)
     assert surface.triangles.tolist() == [[[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 0, 0], [1, 1, 0], [0, 1, 0]]]
+
+
+def test_one_part_of_a_mesh(tmp_path):
+    corners = "v 0 0 0\nv 1 0 0\nv 0 1 {0}\n"
+    obj = f"o one\n{corners.format(0)}f 1 2 3\no two\n{corners.format(7)}f 4 5 6\n"
+    (tmp_path / "a.obj").write_text(obj, encoding="utf-8")
+    (surface,) = read(tmp_path / "a.obj", "two")
+    assert surface.triangles.max() == 7
+    (tmp_path / "a.dae").write_text(DAE.replace("<node><translate>", '<node name="n"><translate>'), encoding="utf-8")
+    assert len(read(tmp_path / "a.dae", "n")) == 1
+    with pytest.raises(MeshError, match="called 'other'"):
+        read(tmp_path / "a.dae", "other")
