@@ -1,7 +1,5 @@
 """A graph that ends with the test."""
 
-from __future__ import annotations
-
 import pytest
 
 from rosmini import Graph

@@ -1,7 +1,5 @@
 """Maps of bytes."""
 
-from __future__ import annotations
-
 import struct
 import xml.etree.ElementTree as ET
 
@@ -40,10 +38,6 @@ def test_a_long_part_is_cut_and_counted():
     assert picture.text.splitlines()[-1].split() == ["64", "...", "36", "more", "bytes"]
 
 
-def test_the_end_of_a_line_is_no_character_that_is_seen():
-    assert texts(byte_map(b"a\n", [(2, "line")], title="it")) == ["a", "0a"]
-
-
 def test_an_empty_part_has_its_line():
     picture = byte_map(bytes(4), [(4, "length: 0"), (0, "nothing")], title="it")
     assert texts(picture, "rm-what") == ["length: 0", "nothing"]
@@ -53,11 +47,6 @@ def test_an_empty_part_has_its_line():
 def test_parts_that_are_not_the_data_are_refused(sizes):
     with pytest.raises(ViewError, match="but the data have 4"):
         byte_map(bytes(4), [(size, "part") for size in sizes], title="it")
-
-
-def test_no_parts_are_refused():
-    with pytest.raises(ViewError, match="at least one"):
-        byte_map(b"", [], title="it")
 
 
 @given(st.lists(st.tuples(st.binary(max_size=70), st.text(max_size=10)), min_size=1, max_size=5))

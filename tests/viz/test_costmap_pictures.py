@@ -1,7 +1,5 @@
 """Pictures of costmaps: what they say, what they draw, and what they refuse."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -54,4 +52,4 @@ def test_what_cannot_be_drawn_is_told(options, said):
 
 def test_an_array_is_no_costmap():
     with pytest.raises(ViewError, match="not a ndarray"):
-        costmap_picture(COSTS)  # type: ignore[arg-type]
+        costmap_picture(COSTS)

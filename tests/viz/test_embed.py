@@ -1,7 +1,5 @@
 """Pictures that move: their HTML in the book and alone, and what is refused."""
 
-from __future__ import annotations
-
 import base64
 import gzip
 import json
@@ -64,14 +62,6 @@ def test_data_come_back_whatever_is_in_them():
     assert html.count("</script>") == 2
 
 
-def test_the_same_picture_has_the_same_mark_and_another_has_another():
-    def mark(data, **more):
-        return re.search(r'data-rosmini="(\w+)"', embed(["test.js"], "test.mount", data, **GIVEN, **more))[1]
-
-    assert mark({"a": 1}) == mark({"a": 1}, book=True)
-    assert mark({"a": 1}) != mark({"a": 2})
-
-
 @pytest.mark.parametrize(
     ("change", "message"),
     [
@@ -89,13 +79,6 @@ def test_what_is_refused(change, message):
     given = {"script_names": ["test.js"], "call": "test.mount", "data": {}} | GIVEN | change
     with pytest.raises(ViewError, match=message):
         embed(**given)
-
-
-def test_data_that_json_cannot_hold_are_refused():
-    with pytest.raises(TypeError, match="a set in the data of a picture"):
-        embed(["test.js"], "test.mount", {"a": {1}}, **GIVEN)
-    with pytest.raises(ValueError, match="not JSON compliant"):
-        embed(["test.js"], "test.mount", {"a": float("nan")}, **GIVEN)
 
 
 class Clock(MovingView):

@@ -1,7 +1,5 @@
 """Views in a grid: one text, one alt text, one document, and as many columns as a page has room for."""
 
-from __future__ import annotations
-
 import base64
 import xml.etree.ElementTree as ET
 
@@ -64,9 +62,3 @@ def test_what_cannot_stand_in_a_grid_is_refused(views):
         grid(*views, columns=0)
     with pytest.raises(ViewError, match="'one pixel' has no vector form"):
         grid(views[0], Picture(PNG, text="one pixel", alt="A pixel."))
-
-
-def test_it_is_saved_as_a_picture_and_as_a_page(views, tmp_path):
-    made = grid(*views)
-    assert made.save(tmp_path / "grid.svg").read_text(encoding="utf-8").startswith("<svg")
-    assert "rosmini-grid" in made.save(tmp_path / "grid.html").read_text(encoding="utf-8")

@@ -1,7 +1,6 @@
 """Pictures of a running Gazebo world: robots from above, and visuals or collisions in three dimensions."""
 
 import math
-import re
 from functools import cache
 
 import numpy as np
@@ -13,7 +12,6 @@ pytest.importorskip("meshcat")
 from rosmini import Graph
 from rosmini.sim.gazebo import GazeboServer
 from rosmini.sim.gazebo.spawning import spawn_text
-from rosmini.sim.models import BURGER
 from rosmini.sim.urdf.xacro import expand
 from rosmini.viz.view import ViewError
 
@@ -65,9 +63,6 @@ def hexes(view):
     return {part.colour for part in [*view.scene.parts, *view.scene.surfaces]}
 
 
-# ---- from above ----
-
-
 def test_from_above_what_drives_is_a_robot_and_what_does_not_is_a_thing(server):
     add(server, "burger", "tb3_0", (0.0, 1.0, 0.5 * math.pi))
     add(server, "waffle", "tb3_1", (0.0, -1.0, 0.0))
@@ -86,31 +81,6 @@ def test_from_above_what_drives_is_a_robot_and_what_does_not_is_a_thing(server):
     drawn = picture._images()["image/svg+xml"].decode()
     assert "tb3_0" in drawn
     assert "tb3_1" in drawn
-
-
-def test_a_trail_belongs_to_the_robot_that_is_named(server):
-    for i in range(3):
-        add(server, "burger", f"tb3_{i}", (0.0, float(i), 0.0))
-    picture = server.show(name="tb3_2", title="One", trail=[(0.0, 0.0), (0.0, 2.0)])
-    assert picture.text.startswith("One: 0.00 s, paused\n")
-    assert picture.text.splitlines()[2:6] == [
-        "tb3_2: pose (0.00, 2.00, 0.0 deg)",
-        "tb3_0: pose (0.00, 0.00, 0.0 deg)",
-        "tb3_1: pose (0.00, 1.00, 0.0 deg)",
-        "trail: 2.00 m",
-    ]
-
-
-def test_a_robot_that_is_given_is_not_drawn_twice(server):
-    add(server, "burger", "tb3", (0.5, 0.0, 0.0))
-    text = server.show(robot=(0.5, 0.0, 0.0), model=BURGER).text
-    assert text.count("pose") == 1
-    assert "tb3: pose (0.50, 0.00, 0.0 deg)" in text
-    with pytest.raises(ViewError, match="the robot's pose"):
-        server.show(robot="there")
-
-
-# ---- in three dimensions ----
 
 
 def test_a_turtlebot3_looks_as_its_meshes_do(server):
@@ -148,39 +118,6 @@ def test_a_wheel_that_has_turned_is_drawn_turned(server):
     assert (np.trace(before[:3, :3].T @ after[:3, :3]) - 1) / 2 == pytest.approx(math.cos(turned), abs=1e-6)
 
 
-def test_copies_of_a_model_share_their_geometry(server):
-    add(server, "burger", "a")
-    one = server.show3d()
-    add(server, "burger", "b", (0.0, 1.0, 0.0))
-    two = server.show3d()
-    assert not any("models/b" in first for first, _ in two.scene.copies)
-    there = {second for _, second in two.scene.copies}
-    wanted = {f"/meshcat/{p.node}/{p.name}" for p in two.scene.surfaces if p.node.startswith("models/b/")}
-    assert wanted <= there
-    more = sum(map(len, two.scene.commands)) - sum(map(len, one.scene.commands))
-    assert 0 < more < 2000
-    assert '"copies":[["/meshcat/models/a/' in two._html(book=True)
-
-
-def test_a_house_with_two_turtlebot3_stays_small():
-    with Graph() as graph:
-        house = GazeboServer(graph.node("gazebo"), world="house")
-        add(house, "burger", "tb3_0", (-3.0, 1.0, 0.0))
-        add(house, "waffle", "tb3_1", (-3.0, 2.0, 0.0))
-        view = house.show3d()
-        assert len(view._html(book=True)) < 800_000
-        same = house.client().show3d()
-        assert same._html(book=True) == view._html(book=True)
-
-
-def test_things_keep_the_colours_of_their_visuals_and_walls_those_of_the_page(server):
-    server.spawn(crate(), "crate", (0.0, 1.0, 0.4))
-    view = server.show3d()
-    assert not view.scene.surfaces  # upright boxes are drawn as those of every other world are
-    assert "#804c1a" in hexes(view)
-    assert "/meshcat/models/ground" not in str(view.scene.recorder.commands)
-
-
 def test_what_looks_other_than_it_is_solid_is_drawn_by_its_visuals(server):
     spawn_text(server.world, BALL, "lamp", (0.5, 0.5, 0.0, 0.0, 0.0, 1.0))
     view = server.show3d()
@@ -197,16 +134,6 @@ def test_what_looks_other_than_it_is_solid_is_drawn_by_its_visuals(server):
     assert view.svg.count("<path") > 20
 
 
-def test_collisions_in_place_of_visuals(server):
-    spawn_text(server.world, BALL, "lamp", (0.5, 0.5, 0.0, 0.0, 0.0, 1.0))
-    view = server.show3d(collisions=True)
-    assert "what is solid of them" in view.text
-    assert {part.colour for part in view.scene.surfaces} == {"#e69e00"}
-    (lamp,) = view.scene.surfaces
-    assert lamp.surface.bounds[1] == pytest.approx([0.05, 0.05, 0.5])
-    assert hexes(view) == {"#e69e00"}
-
-
 def test_the_camera_goes_to_a_model(server):
     add(server, "burger", "tb3", (1.7, 0.5, 0.0))
     camera = server.show3d(focus="tb3").scene.camera
@@ -218,12 +145,3 @@ def test_the_camera_goes_to_a_model(server):
         server.show3d(focus="tb4")
     with pytest.raises(ViewError, match="above 0, not -1"):
         server.show3d(focus="tb3", distance=-1)
-
-
-def test_what_stands_on_something_is_painted_after_it(server):
-    for name, z, size, colour in (("high", 0.3, "0.3 0.3 0.3", "0 0 1"), ("low", 0.0, "0.6 0.6 0.3", "1 0 0")):
-        static = crate(name, colour).replace("<link", "<static>1</static><link", 1)
-        text = static.replace("0.3 0.3 0.3", size)
-        spawn_text(server.world, text, name, (0.0, 0.0, z, 0.0, 0.0, 0.0))
-    painted = re.findall(r'fill="#(..)00(..)"', server.show3d().svg)
-    assert [red > blue for red, blue in painted] == [True] * 3 + [False] * 3

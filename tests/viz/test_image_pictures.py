@@ -1,7 +1,5 @@
 """Images of cameras, from messages and from arrays."""
 
-from __future__ import annotations
-
 import io
 
 import numpy as np
@@ -46,13 +44,6 @@ def test_colours_are_read_whatever_their_order(array, encoding, padding):
     np.testing.assert_array_equal(pixels_of(message(array, encoding, padding=padding)), COLOURS)
 
 
-def test_grey_and_wide_grey_are_read():
-    grey = np.array([[0, 128, 255]], dtype=np.uint8)
-    np.testing.assert_array_equal(pixels_of(message(grey, "mono8"))[..., 1], grey)
-    wide = (grey.astype(">u2") << 8).astype(">u2")
-    np.testing.assert_array_equal(pixels_of(message(wide, "mono16", big=True))[..., 0], grey)
-
-
 def test_depths_are_metres_and_what_has_none_is_nan():
     metres = np.array([[1.5, np.inf, np.nan]], dtype=np.float32)
     np.testing.assert_array_equal(pixels_of(message(metres, "32FC1")), metres)
@@ -79,11 +70,6 @@ def test_a_camera_in_the_room_is_said_in_words():
     assert png(deep).shape[2] >= 3
 
 
-def test_a_large_image_is_made_smaller():
-    view = image_picture(np.zeros((900, 1200, 3), dtype=np.uint8), width=300)
-    assert png(view).shape[:2] == (225, 300)
-
-
 def test_near_and_far_have_other_colours_and_nothing_is_grey():
     depths = np.full((120, 200), np.inf)
     depths[:60, :100], depths[:60, 100:] = 0.1, 3.0
@@ -91,10 +77,6 @@ def test_near_and_far_have_other_colours_and_nothing_is_grey():
     near, far, none = drawn[20, 20, :3], drawn[20, 170, :3], drawn[100, 100, :3]
     assert near[0] > 200 > far[0] and far[2] > near[2]
     assert none.max() - none.min() < 30
-
-
-def test_nothing_within_reach_is_said():
-    assert "nothing within reach" in image_picture(np.full((4, 4), np.inf)).text
 
 
 @pytest.mark.parametrize("encoding", ENCODINGS)

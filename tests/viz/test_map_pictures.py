@@ -1,7 +1,5 @@
 """Maps from above: their text form, and that a reader of any page sees the same map."""
 
-from __future__ import annotations
-
 import base64
 import io
 import math
@@ -17,7 +15,7 @@ from rosmini.viz.view import ViewError
 CELLS = np.array([[0, 100, -1, 0], [0, 0, 0, 0]], dtype=np.int8)
 
 
-def image_of(svg: str) -> tuple[Image.Image, list[float]]:
+def image_of(svg):
     """The image in a picture, and its matrix."""
     found = re.search(r'<image href="data:image/gif;base64,([^"]+)"[^>]*transform="matrix\(([^)]+)\)"', svg)
     assert found is not None
@@ -41,11 +39,6 @@ def test_what_it_says():
     assert picture.caption == "Figure 1: A map"
 
 
-def test_cells_between_are_counted():
-    grid = GridMap(np.array([[0, 40, 60, 100]], dtype=np.int8), 0.5, (0.0, 0.0, 0.0))
-    assert "free 25.0 %, occupied 25.0 %, unknown 0.0 %, between 50.0 %" in grid.show().text
-
-
 def test_each_cell_is_where_it_belongs():
     """Whatever the origin: the image's matrix sends each cell to where the axes have it."""
     straight = GridMap(CELLS, 0.5, (1.0, -2.0, 0.0)).show().svg
@@ -58,18 +51,6 @@ def test_each_cell_is_where_it_belongs():
     # x of the map is up now, and y to the left
     assert (abs(a) < 1e-6, b < 0, c < 0, abs(d) < 1e-6) == (True, True, True, True)
     assert e2 > e
-
-
-def test_the_map_stays_light_on_a_dark_page():
-    svg = GridMap(CELLS, 0.5, (0.0, 0.0, 0.0)).show(path=[(0, 0), (1, 1)]).svg
-    assert "--rosmini-blue:#0072b2" in svg.partition("<image")[0].rpartition("<g")[2]
-
-
-def test_equal_maps_give_equal_bytes():
-    noisy = (0.1 + 0.2, -2.0 + 1e-13, 1e-14)
-    one = GridMap(CELLS, 0.1 + 0.2, noisy).show(robot=(0.3, -1.9, 0.5))
-    two = GridMap(CELLS, 0.3, (0.3, -2.0, 0.0)).show(robot=(0.3 + 1e-13, -1.9, 0.5))
-    assert one.svg == two.svg
 
 
 def test_a_large_map_is_thinned_and_keeps_its_walls():
@@ -100,4 +81,4 @@ def test_only_maps_are_drawn():
     from rosmini.viz.map_pictures import map_picture
 
     with pytest.raises(ViewError, match="a map must be a GridMap, not a ndarray: use load_map"):
-        map_picture(CELLS)  # type: ignore[arg-type]
+        map_picture(CELLS)

@@ -53,8 +53,3 @@ def test_a_goal_comes_from_its_topic_until_a_node_sends_one(graph):
     picture = program.show()
     assert drawn(picture, "rm-topic") == []
     assert "  /clicker -> states: /move_base_simple/goal" in picture.text.splitlines()
-
-
-def test_the_same_graph_gives_the_same_picture(graph):
-    program = graph.nodes["/move_base"].program
-    assert program.show().svg == program.show().svg

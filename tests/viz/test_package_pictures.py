@@ -1,9 +1,6 @@
 """Packages as pictures: their folders, and what they need."""
 
-from __future__ import annotations
-
 import os
-from pathlib import Path
 
 import pytest
 
@@ -16,10 +13,10 @@ MANIFEST = """<package format="2"><name>{name}</name><version>1.0.0</version><de
 
 
 @pytest.fixture
-def index(tmp_path: Path) -> PackageIndex:
+def index(tmp_path):
     """Two packages and a metapackage."""
 
-    def package(name: str, rest: str) -> Path:
+    def package(name, rest):
         folder = tmp_path / name
         folder.mkdir()
         (folder / "package.xml").write_text(MANIFEST.format(name=name, rest=rest), encoding="utf-8")

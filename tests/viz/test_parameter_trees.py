@@ -1,9 +1,5 @@
 """The tree of parameters: text, picture, errors."""
 
-from __future__ import annotations
-
-import xml.etree.ElementTree as ET
-
 import pytest
 
 from rosmini import Graph
@@ -17,7 +13,7 @@ TREE = {
 }
 
 
-def test_the_text_is_the_tree() -> None:
+def test_the_text_is_the_tree():
     assert parameter_tree(TREE, title="Figure 1").text == (
         "Figure 1: 5 parameters in 4 namespaces\n"
         "/\n"
@@ -32,32 +28,7 @@ def test_the_text_is_the_tree() -> None:
     )
 
 
-def test_the_picture_has_a_line_from_each_entry_to_its_namespace() -> None:
-    picture = parameter_tree(TREE)
-    root = ET.fromstring(picture.svg or "")
-    space = "{http://www.w3.org/2000/svg}"
-    rows = {
-        (element.text or ""): float(element.get("y") or 0)
-        for element in root.iter(f"{space}text")
-        if element.get("class") in ("pt-namespace", "pt-name")
-    }
-    starts = {}
-    for path in root.iter(f"{space}path"):
-        _, _, rest = (path.get("d") or "").partition(",")
-        top, _, below = rest.partition("V")
-        starts[float(below.partition("H")[0])] = float(top)
-    parents = {
-        name: next(other for other, height in rows.items() if abs(height - 4.5 - (starts[y - 4.5] - 9)) < 0.2)
-        for name, y in rows.items()
-        if y - 4.5 in starts
-    }
-    assert parents == {
-        "empty/": "/", "on": "/", "raw": "/", "robot/": "/", "name": "robot/", "wheel/": "robot/",
-        "names": "wheel/", "radius": "wheel/",
-    }  # fmt: skip
-
-
-def test_a_graphs_parameters_without_roscores_own() -> None:
+def test_a_graphs_parameters_without_roscores_own():
     with Graph() as graph:
         node = graph.node("node", namespace="/robot")
         node.set_param("speed", 2.0)

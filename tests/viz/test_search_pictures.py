@@ -1,7 +1,5 @@
 """Searches as pictures: what they say, and what is drawn."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -10,7 +8,7 @@ from rosmini.viz.search_pictures import search_picture
 from rosmini.viz.view import ViewError
 
 
-def room() -> np.ndarray:
+def room():
     costs = np.zeros((20, 30), np.uint8)
     costs[:14, 15] = 254
     costs[10:, 5] = 255

@@ -1,13 +1,11 @@
 """Pictures of gmapping's particles: what they say, that they are steady, and what they refuse."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
+from tests.navigation.gmapping.test_film import filmed
 
 from rosmini.navigation.gmapping import Film, GridSlam, Settings
 from rosmini.viz.view import ViewError
-from tests.navigation.gmapping.test_film import filmed
 
 
 @pytest.fixture(scope="module")

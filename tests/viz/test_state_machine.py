@@ -1,14 +1,10 @@
 """Pictures of state machines."""
 
-from __future__ import annotations
-
 import xml.etree.ElementTree as ET
 
-import pytest
-
-from rosmini.core.actionlib import CommState, Status
-from rosmini.viz import ViewError, action_states
-from rosmini.viz.state_machine import client_transitions, server_transitions, state_machine
+from rosmini.core.actionlib import Status
+from rosmini.viz import action_states
+from rosmini.viz.state_machine import server_transitions, state_machine
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -28,29 +24,12 @@ def test_the_server_has_all_its_steps():
     assert picture.caption == "Figure 1: it"
 
 
-def test_the_client_has_its_single_steps():
-    picture = action_states("client")
-    assert sorted(groups(picture, "rm-state")) == sorted(one.name for one in CommState if one is not CommState.LOST)
-    assert "  PREEMPTING -> WAITING_FOR_RESULT: PREEMPTED, SUCCEEDED, ABORTED" in picture.text.splitlines()
-    assert ("WAITING_FOR_RESULT", "result", "DONE") in client_transitions()
-    assert picture.text.splitlines()[-1] == "  final: DONE"
-
-
 def test_the_way_of_one_goal_stands_out():
     picture = action_states(visited=[Status.PENDING, "ACTIVE", Status.PREEMPTING, Status.PREEMPTED])
     assert sorted(groups(picture, "rm-visited")) == ["ACTIVE", "PENDING", "PREEMPTED", "PREEMPTING"]
     assert len(groups(picture, "rm-taken")) == 3
     assert picture.text.endswith("visited: PENDING -> ACTIVE -> PREEMPTING -> PREEMPTED")
     assert "came through PENDING, ACTIVE" in picture.alt
-
-
-def test_the_same_picture_whatever_the_order():
-    steps = [("a", "go", "b"), ("a", "stop", "c"), ("b", "<back>", "a")]
-    once = state_machine(steps, title="t")
-    assert once.svg == state_machine(steps[::-1], title="t").svg
-    assert "&lt;back&gt;" in once.svg
-    with pytest.raises(ViewError, match=r"PENDIN is not a state of this machine: did you mean PENDING\?"):
-        action_states(visited=["PENDIN"])
 
 
 def test_a_machine_without_an_end():

@@ -1,7 +1,5 @@
 """The stepped player: which frame is shown where, and which frames it refuses."""
 
-from __future__ import annotations
-
 import itertools
 
 import pytest

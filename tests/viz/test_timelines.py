@@ -1,7 +1,5 @@
 """Timelines of states."""
 
-from __future__ import annotations
-
 from enum import Enum
 from types import SimpleNamespace
 
@@ -39,13 +37,6 @@ def test_it_says_what_it_draws_from_its_first_transition_on():
     )
     for word in ("RED", "GREEN", "a bus", "time [s]"):
         assert word in picture.svg
-
-
-def test_the_last_bit_of_a_time_is_not_seen():
-    def svg(time):
-        return timeline(history(0.0, time, 3.0), states=["RED", "GREEN"], marks=[(time, "x")]).svg
-
-    assert svg(1.0) == svg(1.0 + 1e-12) != svg(1.5)
 
 
 @pytest.mark.parametrize(("times", "states"), [((1.0,), ["RED", "GREEN"]), ((1.0, 2.0), ["RED"])])

@@ -1,8 +1,5 @@
 """A way from above: its words, and that it is drawn to scale."""
 
-from __future__ import annotations
-
-import itertools
 import re
 
 import numpy as np
@@ -34,13 +31,6 @@ def test_it_is_drawn_to_scale():
     across, up = way[1][0] - way[0][0], way[1][1] - way[2][1]
     assert across == pytest.approx(2 * up, rel=0.01)
     assert across > 200
-
-
-def test_more_positions_on_the_same_way_change_only_the_text():
-    fine = np.concatenate([np.linspace(a, b, 50) for a, b in itertools.pairwise(SQUARE)])
-    one, other = track_picture(SQUARE), track_picture(fine)
-    assert "150 positions" in other.text
-    assert len(other.svg) < len(one.svg) + 200
 
 
 @pytest.mark.parametrize("still", [np.zeros((1, 2)), np.zeros((5, 2))])

@@ -1,13 +1,9 @@
 """A drive of turtles, to be played."""
 
-from __future__ import annotations
-
 from rosmini import Graph, rosrun
-from rosmini.sim.turtlesim import TurtleSim
-from rosmini.viz.replay import ReplayView
 
 
-def call(sim: TurtleSim) -> ReplayView:
+def call(sim):
     graph = sim.node.graph
     tape = sim.record()
     rosrun("turtlesim", "draw_square", graph=graph)
@@ -16,11 +12,10 @@ def call(sim: TurtleSim) -> ReplayView:
     graph.run(1.0)
     tape.stop()
     graph.run(5.0)
-    view: ReplayView = tape.replay(title="Figure 1: A square")
-    return view
+    return tape.replay(title="Figure 1: A square")
 
 
-def test_a_tape_is_played() -> None:
+def test_a_tape_is_played():
     with Graph() as graph:
         view = call(rosrun("turtlesim", "turtlesim_node", graph=graph).instance())
     assert view.text == (

@@ -41,9 +41,3 @@ def test_the_picture_has_every_link_and_joint_and_is_the_same_each_time(picture)
     kinds = [each.get("class") for each in root.iter() if each.get("class", "").startswith("urdf-")]
     assert sorted(kinds) == ["urdf-body", "urdf-frame", "urdf-frame", *["urdf-joint"] * 3, "urdf-root"]
     assert urdf_tree(load(ARM), title="An arm").svg == svg
-
-
-def test_a_robot_shows_itself():
-    view = load('<robot name="dot"><link name="a"/></robot>').show()
-    assert view.text == "dot: 1 link, 0 joints, 0 of them move; 0.000 kg"
-    assert "with 0 moving joints: a." in view.alt

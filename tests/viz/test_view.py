@@ -1,7 +1,5 @@
 """The display funnel: text, image and HTML of a view, and how they reach a file, a notebook and a built page."""
 
-from __future__ import annotations
-
 import base64
 import re
 import tomllib
@@ -14,7 +12,7 @@ import numpy as np
 import pytest
 
 from rosmini.core.graph import show as show_module
-from rosmini.viz import Picture, View, ViewError, matplotlib_picture, rqt_graph, style
+from rosmini.viz import Picture, ViewError, matplotlib_picture, rqt_graph, style
 from rosmini.viz.alt_text import AltText
 from rosmini.viz.svg import clean, element, escape, number
 
@@ -92,7 +90,7 @@ def test_a_picture_without_words_or_of_another_kind_is_refused(image, text, alt,
 def test_a_matplotlib_figure_is_a_picture_with_the_same_bytes_each_time(form):
     from matplotlib.figure import Figure
 
-    def picture() -> View:
+    def picture():
         figure = Figure(figsize=(1, 1))
         figure.subplots().plot([0, 1], [1, 0], label="a")
         return matplotlib_picture(figure, text="a line that falls", alt="A <falling> line.", form=form)
@@ -115,14 +113,14 @@ def test_svg_is_escaped_and_numbers_are_short():
 # The house style
 
 
-def luminance(colour: str) -> float:
+def luminance(colour):
     """Relative luminance (WCAG 2.1)."""
     channels = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
     linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in channels]
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 
 
-def contrast(a: str, b: str) -> float:
+def contrast(a, b):
     high, low = sorted((luminance(a), luminance(b)), reverse=True)
     return (high + 0.05) / (low + 0.05)
 
@@ -194,7 +192,7 @@ def test_the_entry_points_of_the_project_can_be_loaded():
 
 
 @pytest.fixture(scope="module")
-def built_page(tmp_path_factory) -> str:
+def built_page(tmp_path_factory):
     """A page with a graph and a PNG in its committed outputs, built by Sphinx as the book is."""
     import nbformat
     from myst_nb.core import render

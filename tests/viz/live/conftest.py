@@ -1,7 +1,5 @@
 """A robot in the built-in room, without noise, and what arrives on its topic."""
 
-from __future__ import annotations
-
 import pytest
 
 from rosmini.msgs.geometry_msgs.msg import Twist

@@ -1,7 +1,5 @@
 """Pads for chosen robots of the three simulators."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -43,17 +41,6 @@ def test_a_chosen_robot_of_stage_is_driven_and_seen(four, graph):
     assert four.truth("robot_1") == pytest.approx(before)
 
 
-def test_pads_of_two_robots_do_not_disturb_each_other(four, graph):
-    first, last = four.pad(), four.pad("era4")
-    assert (first.topic, last.topic) == ("/robot_0/cmd_vel", "/robot_3/cmd_vel")
-    first.press("w", 5)
-    last.press("w", 5)
-    graph.run(2.0)
-    assert four.truth("robot_0")[0] > 0.05
-    assert four.truth("robot_3")[1] > 1.55
-    assert (first.gone, last.gone) == (None, None)
-
-
 def test_the_page_knows_the_fan_of_the_laser_and_the_other_robots(four):
     pad = four.pad("robot_1")
     data = pad_data(pad)
@@ -66,7 +53,7 @@ def test_the_page_knows_the_fan_of_the_laser_and_the_other_robots(four):
 
 def test_the_live_page_of_a_chosen_robot_gets_its_scans(four, graph):
     pad = four.pad("robot_2")
-    sent: list = []
+    sent = []
     link = Link(pad, clock=lambda: 0.0)
     link.widget.send = lambda content, buffers=None: sent.append((content, buffers or []))
     link._begin()
@@ -101,19 +88,6 @@ def test_a_model_of_gazebo_is_driven(graph):
     assert server.pad().topic == "/a/cmd_vel"
     with pytest.raises(UnknownEntity, match="no model 'c'"):
         server.pad("c")
-
-
-def test_a_second_robot_of_the_simulator_is_driven(simulator, graph):
-    simulator.spawn("second", pose=(1.0, 1.0, 0.0))
-    pad = simulator.pad("second")
-    assert pad.topic == "/second/cmd_vel"
-    pad.press("x", times=10)
-    graph.run(2.0)
-    assert simulator.truth("second")[0] < 0.9
-    assert simulator.truth() == (0.0, 0.0, 0.0)
-    simulator.delete("second")
-    graph.run(0.2)
-    assert "there is no robot 'second'" in pad.text
 
 
 def test_what_is_not_on_two_wheels_does_not_move_by_itself_in_the_book(graph, monkeypatch):

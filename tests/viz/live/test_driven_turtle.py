@@ -1,7 +1,5 @@
 """A pad that drives turtles: the scripted twin, and what its page is told."""
 
-from __future__ import annotations
-
 import json
 import math
 
@@ -13,7 +11,7 @@ from rosmini.viz.live.pad import TeleopPad
 from rosmini.viz.live.page import pad_data
 from rosmini.viz.live.teleop import TeleopError
 
-from .test_live import Page
+from .test_live import page_of
 
 
 @pytest.fixture
@@ -104,7 +102,7 @@ def test_its_page_knows_the_window_and_is_sent_what_is_new(sim, graph):
     data = json.loads(json.dumps(pad_data(pad)))
     assert (data["scene"], data["turtle"]["name"], data["turtle"]["pose_topic"]) == (None, "turtle1", "/turtle1/pose")
     assert [table["name"] for table in data["maps"]][-1] == "turtle_teleop_key"
-    page = Page(pad)
+    page = page_of(pad)
     page.say("key", key="ArrowUp")
     page.run(0.5)
     windows = [content["window"] for content, _ in page.frames() if "window" in content]

@@ -1,7 +1,5 @@
 """The keys of ROS's programs: what they are called, and that the terminals' programs have the same."""
 
-from __future__ import annotations
-
 import pytest
 
 from rosmini.viz.live.key_maps import NAMES, TeleopError, key_map
@@ -16,17 +14,6 @@ from rosmini.viz.live.key_maps import NAMES, TeleopError, key_map
 )  # fmt: skip
 def test_keys_have_several_names(name, key):
     assert key_map().named(name) == key
-
-
-def test_capitals_are_keys_of_their_own_where_a_program_has_them():
-    keys = key_map("teleop_twist_keyboard")
-    assert (keys.named("U"), keys.named("u"), keys.named("Q"), keys.named("space")) == ("U", "u", "q", " ")
-
-
-def test_any_other_key_stops_where_a_program_says_so():
-    assert key_map("teleop_twist_keyboard").named("5") == "k"
-    with pytest.raises(TeleopError, match="no key 'Home'"):
-        key_map("teleop_twist_keyboard").named("Home")
 
 
 def test_an_unknown_key_is_refused_with_the_nearest():

@@ -1,12 +1,9 @@
 """A widget's page on loopback: what goes both ways, who may ask, and how it ends."""
 
-from __future__ import annotations
-
 import http.client
 import json
 import socket
 import threading
-from collections.abc import Iterator
 from contextlib import ExitStack
 from urllib.parse import urlsplit
 
@@ -34,7 +31,7 @@ class Widget:
 
 
 @pytest.fixture
-def served() -> Iterator[tuple[Widget, PageServer]]:
+def served():
     widget = Widget()
     with PageServer(widget, title="A <page>") as server:
         yield widget, server

@@ -1,9 +1,5 @@
 """What every page of something live relies on: its messages arrive, in order, whoever drives the graph."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import pytest
 
 from rosmini.core.errors import RosminiError
@@ -16,24 +12,24 @@ class Link(PageLink):
     acts = frozenset({"act"})
     gone = None
 
-    def __init__(self, node: Any) -> None:
+    def __init__(self, node):
         self._node = node
-        self.taken: list[tuple[str | None, float]] = []
+        self.taken = []
         super().__init__("", {})
-        self.sent: list[dict[str, Any]] = []
+        self.sent = []
 
     @property
-    def node(self) -> Any:
+    def node(self):
         return self._node
 
-    def _take(self, kind: str | None, content: dict[str, Any]) -> None:
+    def _take(self, kind, content):
         self._node.sleep(content.get("takes", 0.0))
         self.taken.append((kind, content.get("number", 0)))
 
-    def say(self, kind: str, **more: Any) -> None:
+    def say(self, kind, **more):
         self.receive(self.widget, {"type": kind, **more}, [])
 
-    def keep(self, content: dict[str, Any], _buffers: object) -> None:
+    def keep(self, content, _buffers):
         self.sent.append(content)
 
 
@@ -45,7 +41,7 @@ def link(graph):
 
 
 def test_a_message_does_not_overtake_one_that_waits(link, graph):
-    def act(_event: object) -> None:
+    def act(_event):
         for number in range(3):
             link.say("act", number=number, takes=0.3 - number / 10)
 
@@ -64,7 +60,7 @@ def test_a_page_that_a_program_serves_is_heard_between_two_drives(link, graph):
 
 
 def test_without_a_program_or_an_event_loop_an_action_is_refused_on_the_page(link, graph, monkeypatch):
-    def live() -> None:
+    def live():
         raise RosminiError("a live graph needs an event loop")
 
     monkeypatch.setattr(graph, "live", live)

@@ -1,24 +1,18 @@
 """The view's scripted twin on the three simulators, and its messages with the page, which the test plays."""
 
-from __future__ import annotations
-
 import math
-import sys
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from rosmini import Graph, rosrun
+from rosmini import rosrun
 from rosmini.core.errors import RosminiError
-from rosmini.msgs.geometry_msgs.msg import Twist
-from rosmini.sim.engine import RobotGone
 from rosmini.sim.gazebo.errors import UnknownEntity
-from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import WorldError
-from rosmini.viz.live.simulation_view import SimulationView
 from rosmini.viz.live.view_link import ViewLink
 from rosmini.viz.view import ViewError
+
+from .pages import Page
 
 BOX = (
     '<sdf version="1.6"><model name="{name}"><link name="link"><inertial><mass>1</mass></inertial><collision '
@@ -48,10 +42,6 @@ def server(graph):
     return server
 
 
-# -- the twin
-# ------------------------------------------------------------------------------------------------------------
-
-
 def test_robots_of_stage_are_dragged_and_turned(four, graph):
     view = four.view()
     assert view.names == ("robot_0", "robot_1", "robot_2", "robot_3")
@@ -65,70 +55,11 @@ def test_robots_of_stage_are_dragged_and_turned(four, graph):
     assert view.message == "robot_1 is at (2.00, 1.50, 0.0 deg)"
 
 
-def test_boxes_of_stage_are_dragged_and_can_still_be_pushed(stage, graph):
-    view = stage.view()
-    view.drag("crate_1", (-0.9, 0.0))
-    driver = graph.node("driver").publisher("cmd_vel", Twist, queue_size=1)
-    twist = Twist()
-    twist.linear.x = 0.3
-    for _ in range(20):
-        driver.publish(twist)
-        graph.run(0.1)
-    assert view.pose("crate_1")[0] > -0.8
-
-
-@pytest.mark.parametrize(
-    ("to", "what"),
-    [
-        ((-1.5, 0.0), "the robot 'robot_0' is in its way"),
-        ((0.5, 1.2), "crate 'crate_2'|'crate_2' is in its way"),
-        ((-3.05, 0.0), r"'room \(3\)' is in its way"),
-        ((-1.5, 1.5), "'post_1' is in its way"),
-    ],
-)
-def test_an_occupied_place_is_refused(stage, to, what):
-    view = stage.view()
-    with pytest.raises(WorldError, match=what):
-        view.drag("crate_1", to)
-    assert view.pose("crate_1") == (0.5, 0.0, 0.0)
-    assert view.text.splitlines()[-1] == f"last: {view.message}"
-
-
-def test_a_robot_is_not_put_onto_another_or_into_a_wall(four):
-    view = four.view()
-    for to in ((2.0, 0.0), (1000.0, math.nan)):
-        with pytest.raises(RosminiError, match=r"'robot_1' is in its way|both finite"):
-            view.drag("robot_0", to)
-    assert four.truth() == (0.0, 0.0, 0.0)
-
-
 def test_a_dragged_robot_of_stage_forgets_its_command(stage, graph):
     stage.engine.command("robot_0", 0.3, 0.0)
     stage.view().drag("robot_0", (-2.0, 0.0))
     graph.run(1.0)
     assert stage.truth() == pytest.approx((-2.0, 0.0, 0.0), abs=1e-6)
-
-
-def test_a_robot_of_stage_has_its_name_in_the_file_too(four):
-    view = four.view()
-    view.drag("era2", (2.5, 1.5))
-    assert view.message == "robot_1 is at (2.50, 1.50, 0.0 deg)"
-    assert view.pose("robot_1") == view.pose("era2") == (2.5, 1.5, 0.0)
-
-
-def test_time_of_gazebo_is_stopped_as_its_services_do_it(server, graph):
-    heard: list = []
-    server.host.on_time.append(lambda: heard.append(server.world.paused))
-    view = server.view()
-    view.pause()
-    graph.run(1.0)
-    before = server.world.now
-    view.step()
-    assert server.world.now == pytest.approx(before + 0.1)
-    view.unpause()
-    assert heard == [True, True, False]
-    with pytest.raises(RosminiError, match="not 0 times"):
-        view.step(1e-9)
 
 
 def test_models_of_gazebo_are_dragged(server, graph):
@@ -165,30 +96,6 @@ def test_the_pose_of_a_model_is_that_of_its_origin_wherever_its_wheels_are(graph
     assert server.truth("car") == pytest.approx((1.0, 2.0, math.pi / 2))
     assert view.pose("car") == pytest.approx((1.0, 2.0, math.pi / 2))
     assert server.engine.robot("car").pose == pytest.approx((1.0, 2.1, math.pi / 2))
-
-
-def test_robots_and_boxes_of_the_simulator_are_dragged(simulator, graph):
-    view = simulator.view()
-    assert view.names == ("burger", "crate")
-    view.drag("burger", (1.0, -1.0))
-    view.drag("crate", (0.0, -1.0, 1.0))
-    graph.run(0.2)
-    assert simulator.truth() == (1.0, -1.0, 0.0)
-    assert simulator.engine.pose("crate") == pytest.approx((0.0, -1.0, 1.0))
-    view.reset()
-    assert simulator.truth() == (0.0, 0.0, 0.0)
-
-
-def test_names_that_cannot_be_dragged_are_said(simulator):
-    view = simulator.view()
-    with pytest.raises(ViewError, match="nothing named 'burgr' that can be dragged; did you mean burger"):
-        view.drag("burgr", (0.0, 0.0))
-    with pytest.raises(RobotGone, match="is fixed in the world 'room'"):
-        simulator.drag(next(o.name for o in simulator.world.obstacles if o.fixed), (0.0, 0.0, 0.0))
-    with pytest.raises(ViewError, match="give x and y"):
-        view.drag("burger", (1.0,))
-    with pytest.raises(ViewError, match="a finite heading"):
-        view.turn("burger", math.inf)
 
 
 def test_time_is_paused_and_stepped(stage, graph):
@@ -235,28 +142,6 @@ def test_in_the_book_it_is_a_picture_of_how_things_stand(stage, monkeypatch):
     assert view._repr_mimebundle_()[0]["text/html"] != before["text/html"]
 
 
-def test_a_look_changes_nothing():
-    def ends(view: bool) -> tuple:
-        with Graph(seed=3) as graph:
-            simulator = Simulator(graph.node("simulator"), world="house")
-            link = ViewLink(simulator.view()) if view else None
-            simulator.engine.command("burger", 0.2, 0.3)
-            for _ in range(40):
-                graph.run(0.05)
-                if link is not None:
-                    assert link.view.text
-                    link._measure()
-                    link._data()
-            return (*simulator.truth(), *simulator.last_scan().ranges)
-
-    assert ends(view=True) == ends(view=False)
-
-
-def test_only_a_running_simulation_is_viewed(graph):
-    with pytest.raises(ViewError, match="not a Graph"):
-        SimulationView(graph)
-
-
 def test_a_simulation_that_has_ended_is_said_so(stage, graph):
     view = stage.view()
     stage.node.shutdown("over")
@@ -266,42 +151,15 @@ def test_a_simulation_that_has_ended_is_said_so(stage, graph):
     assert graph.run(1.0).reason == "time"
 
 
-# -- the page
-# ------------------------------------------------------------------------------------------------------------
-
-
-class Page:
-    """A page of a view: says what it is told to, and keeps what it is sent."""
-
-    def __init__(self, view: SimulationView, *, live: bool = True) -> None:
-        self.graph, self.wall, self.lives = view.watch.node.graph, 100.0, 0
-        self.sent: list = []
-        self.graph.live = self.live
-        if live:
-            self.live()
-        self.link = ViewLink(view, clock=lambda: self.wall)
-        self.link.widget.send = lambda content, buffers=None: self.sent.append((content, buffers or []))
-
-    def live(self) -> None:
-        self.lives += 1
-        self.graph._live = SimpleNamespace(running=True, stop=lambda: None)
-
-    def say(self, kind: str, **more) -> None:
-        self.link.receive(self.link.widget, {"type": kind, **more}, [])
-
-    def run(self, seconds: float, *, beats: bool = True) -> None:
-        for i in range(round(seconds * 100)):
-            if beats and i % 25 == 0:
-                self.say("beat")
-            self.wall += 0.01
-            self.graph.run(0.01)
-
-    def of(self, kind: str) -> list:
-        return [(content, buffers) for content, buffers in self.sent if content["type"] == kind]
+def page_of(view, *, live=True):
+    page = Page(view.watch.node.graph, lambda clock: ViewLink(view, clock=clock))
+    if live:
+        page.live()
+    return page
 
 
 def test_a_drag_of_the_page_is_answered(stage):
-    page = Page(stage.view())
+    page = page_of(stage.view())
     page.say("drag", name="robot_0", to=[-1.0, 0.5, 0.1])
     page.graph.run(0.01)
     assert page.of("put") == [({"type": "put", "name": "robot_0", "text": "robot_0 is at (-1.00, 0.50, 5.7 deg)"}, [])]
@@ -321,7 +179,7 @@ def test_a_drag_of_the_page_is_answered(stage):
     ],
 )
 def test_what_is_refused_changes_nothing(stage, name, to, text):
-    page = Page(stage.view())
+    page = page_of(stage.view())
     page.say("drag", name=name, to=to)
     page.graph.run(0.01)
     ((content, _),) = page.of("refused")
@@ -332,7 +190,7 @@ def test_what_is_refused_changes_nothing(stage, name, to, text):
 
 
 def test_frames_come_while_it_runs_and_somebody_looks(stage):
-    page = Page(stage.view())
+    page = page_of(stage.view())
     stage.watchdog.bases.clear()
     page.say("hello")
     stage.engine.command("robot_0", 0.2, 0.0)
@@ -354,7 +212,7 @@ def test_frames_come_while_it_runs_and_somebody_looks(stage):
 
 
 def test_what_comes_and_goes_is_told(simulator):
-    page = Page(simulator.view())
+    page = page_of(simulator.view())
     page.say("hello")
     page.run(0.1)
     page.sent.clear()
@@ -366,7 +224,7 @@ def test_what_comes_and_goes_is_told(simulator):
 
 
 def test_a_run_with_nothing_left_to_do_ends_though_a_page_looks(stage):
-    page = Page(stage.view())
+    page = page_of(stage.view())
     page.say("hello")
     page.run(0.2)
     page.graph._live = None
@@ -378,7 +236,7 @@ def test_a_run_with_nothing_left_to_do_ends_though_a_page_looks(stage):
 
 
 def test_a_still_graph_is_said_so_and_an_action_makes_it_live(stage):
-    page = Page(stage.view(), live=False)
+    page = page_of(stage.view(), live=False)
     page.say("hello")
     page.say("beat")
     assert {content["type"] for content, _ in page.sent} == {"still"}
@@ -389,20 +247,10 @@ def test_a_still_graph_is_said_so_and_an_action_makes_it_live(stage):
 
 
 def test_an_ended_simulation_is_told(stage):
-    page = Page(stage.view())
+    page = page_of(stage.view())
     page.say("hello")
     page.run(0.1)
     stage.node.shutdown("over")
     page.run(0.1)
     page.say("drag", name="robot_0", to=[0.0, 0.0, 0.0])
     assert "was shut down" in page.of("gone")[-1][0]["text"]
-
-
-def test_without_anywidget_the_twin_works_and_the_page_says_what_to_install(stage, monkeypatch):
-    for name in ("page_link", "view_link", "live"):
-        monkeypatch.delitem(sys.modules, f"rosmini.viz.live.{name}", raising=False)
-    monkeypatch.setitem(sys.modules, "anywidget", None)
-    view = stage.view()
-    view.drag("robot_0", (-1.0, 0.0))
-    with pytest.raises(ViewError, match=r"needs anywidget.*pip install anywidget"):
-        _ = view.link

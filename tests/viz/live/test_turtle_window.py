@@ -1,14 +1,11 @@
 """The window of a turtlesim in a terminal: a page whose node comes when it is opened."""
 
-from __future__ import annotations
-
 import json
 import sys
 import threading
 import time
 import urllib.request
 from types import SimpleNamespace
-from typing import Any
 
 import pytest
 
@@ -16,24 +13,24 @@ from rosmini import Graph, rosrun
 from rosmini.core.graph.show import has_own_process
 from rosmini.sim.turtlesim import TurtleSim
 from rosmini.sim.turtlesim import node as turtlesim_node
-from rosmini.viz.live import loopback, turtle_window
+from rosmini.viz.live import loopback
 from rosmini.viz.live.turtle_window import PadOnDemand
 
 from ...processes import PATIENCE
 
 
 @pytest.fixture
-def terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+def terminal(monkeypatch):
     """Be a process of a graph, without a screen."""
     monkeypatch.setattr(turtlesim_node, "has_own_process", lambda graph: True)
     monkeypatch.setattr(loopback, "has_screen", lambda: False)
 
 
-def asked(graph: Graph, url: str) -> Any:
+def asked(graph, url):
     """What a page is answered while the graph goes on."""
-    found: list[bytes] = []
+    found = []
 
-    def ask() -> None:
+    def ask():
         with urllib.request.urlopen(url, timeout=PATIENCE) as answer:
             found.append(answer.read())
 
@@ -83,21 +80,14 @@ def test_a_notebook_opens_no_window():
         assert [has_own_process(graph) for graph in (simulated, alone)] == [False, False]
 
 
-def test_without_anywidget_it_says_what_is_missing(terminal, capsys, monkeypatch):
-    monkeypatch.setattr(turtle_window, "find_spec", lambda name: None)
-    with Graph() as graph:
-        rosrun("turtlesim", "turtlesim_node", graph=graph).instance()
-    assert "turtlesim: its window needs `pip install anywidget`" in capsys.readouterr().err
-
-
 def test_a_pad_that_cannot_be_made_is_an_error_of_the_page_only(terminal, monkeypatch):
     with Graph(simulated=False) as graph:
         sim = rosrun("turtlesim", "turtlesim_node", graph=graph).instance()
         sim.frame.turtles.clear()
         pages = PadOnDemand(sim)
-        errors: list[Exception] = []
+        errors = []
 
-        def ask() -> None:
+        def ask():
             try:
                 pages.state
             except Exception as error:

@@ -1,44 +1,33 @@
 """Scenes in three dimensions: the viewer's commands, the drawing of the same scene, texts, and no server."""
 
-from __future__ import annotations
-
 import json
 import math
 import re
-import sys
 import xml.etree.ElementTree as ET
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 pytest.importorskip("meshcat")
 
 import umsgpack
 
 from rosmini import Graph
-from rosmini.sim.geometry.raycast import raycast
 from rosmini.sim.models import BURGER, model
 from rosmini.sim.recording import Moved, Recording
 from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, Sphere, World
 from rosmini.sim.worlds import world
-from rosmini.viz import ViewError, style
+from rosmini.viz import ViewError
 from rosmini.viz.meshcat import replay_3d, robot_3d, world_3d
-from rosmini.viz.meshcat.command_recorder import Recorder, meshcat
 from rosmini.viz.meshcat.drawing import HEIGHT, WIDTH, draw
-from rosmini.viz.meshcat.scene3d import Camera, Scene3D, keyframes, planar, ribbon
-from rosmini.viz.meshcat.solids import Ball, Prism, Rod, triangulate
-from rosmini.viz.meshcat.view import camera_for
+from rosmini.viz.meshcat.scene3d import Camera, Scene3D, planar
+from rosmini.viz.meshcat.solids import Ball, Prism, Rod
 from rosmini.viz.replay import Body, Run, Shape, Shapes
 
-from ...processes import run as run_process
 from ..replay import unpacking
 
-ROOT = Path(__file__).parents[3]
 POSE = (0.5, -0.25, math.pi / 2)
 SMALL = World(
     "small",
@@ -71,6 +60,9 @@ def vertices(thing):
     return np.frombuffer(geometry["data"]["attributes"]["position"]["array"].data, np.float32).reshape(-1, 3)
 
 
+# What the viewer is sent
+
+
 def run(duration=12.0):
     """Ahead for 6 s, then a left turn on an arc; odometry drifts to the left."""
     times = np.arange(0, duration + 0.01, 0.1)
@@ -83,25 +75,6 @@ def run(duration=12.0):
     scan_times = np.arange(0, duration, 0.2)
     ranges = np.where(np.arange(360) < 180, 1.0, np.inf) + np.zeros((len(scan_times), 1))
     return Recording(SMALL, BURGER, times, truth, odom, np.zeros((0, 3)), scan_times, ranges)
-
-
-# What the viewer is sent
-
-
-def test_the_recorder_is_a_window_for_meshcats_own_visualizer():
-    recorder = Recorder()
-    visualizer = meshcat().Visualizer(window=recorder)
-    visualizer["a"].set_object(meshcat().geometry.Box([1, 2, 3]))
-    visualizer["a"].set_transform(np.diag([1.0, 1, 1, 1]))
-    visualizer["b"].set_property("visible", False)
-    visualizer["a"].delete()
-    visualizer.open()
-    box, _, hidden, gone = (umsgpack.unpackb(command) for command in recorder.commands)
-    (geometry,), (material,) = box["object"]["geometries"], box["object"]["materials"]
-    assert (geometry["width"], geometry["height"], geometry["depth"]) == (1, 2, 3)
-    assert box["object"]["object"]["geometry"] == geometry["uuid"] != material["uuid"]
-    assert {geometry["uuid"], material["uuid"], box["object"]["object"]["uuid"]} == {"0", "1", "2"}
-    assert (hidden["type"], gone["type"], gone["path"]) == ("set_property", "delete", "/meshcat/a")
 
 
 def test_the_robot_and_the_obstacles_stand_where_they_are():
@@ -148,17 +121,6 @@ def test_the_robot_is_as_large_as_its_model_says():
     assert laser.solids[0].centre == pytest.approx(BURGER.lidar.mount)
 
 
-def test_many_walls_are_sheets():
-    angles = np.linspace(0, 2 * np.pi, 1001)
-    ring = np.column_stack([np.cos(angles), np.sin(angles)]) * 5
-    round_world = World("round", walls=np.hstack([ring[:-1], ring[1:]]), wall_height=0.5)
-    view = world_3d(round_world)
-    sheets = vertices(objects(view)["/meshcat/walls"])
-    assert len(sheets) == 4000
-    assert (sheets[:, 2].min(), sheets[:, 2].max()) == (0, 0.5)
-    assert np.hypot(*sheets[:, :2].T) == pytest.approx(5, abs=1e-4)
-
-
 def test_a_scan_is_where_the_laser_saw_it():
     ranges = np.full(360, np.inf)
     ranges[0], ranges[90] = 1.0, 2.0
@@ -189,23 +151,6 @@ def test_obstacles_of_names_that_look_alike_in_a_path_are_both_there():
 
 
 # The same everywhere, and nothing started
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
-def test_nothing_is_started():
-    code = (
-        "import os, pathlib, threading, numpy\n"
-        "from rosmini.viz.meshcat import robot_3d\n"
-        "from rosmini.sim.worlds import world\n"
-        "from rosmini.sim.models import BURGER\n"
-        "robot_3d(world('room'), BURGER, (0.3, 0.2, 0.4), numpy.ones(360)).html\n"
-        "descriptors = [f'/proc/self/fd/{fd}' for fd in os.listdir('/proc/self/fd')]\n"
-        "sockets = [fd for fd in descriptors if os.path.exists(fd) and 'socket' in os.readlink(fd)]\n"
-        "children = pathlib.Path(f'/proc/self/task/{os.getpid()}/children').read_text()\n"
-        "print(threading.active_count(), sockets, repr(children))\n"
-    )
-    done = run_process([sys.executable, "-W", "error", "-c", code], check=True, cwd=ROOT)
-    assert (done.stdout, done.stderr) == ("1 [] ''\n", "")
 
 
 def test_the_pages_html_in_both_forms(monkeypatch):
@@ -267,16 +212,6 @@ def test_a_box_is_drawn_where_the_camera_sees_it():
     assert any(len(n) == 8 and n == pytest.approx(wanted, abs=0.1) for n in numbers), (numbers, wanted)
 
 
-def test_what_is_near_covers_what_is_far():
-    scene = Scene3D(Camera((0.0, 0.0, 0.0), 8.0, azimuth=-90.0, elevation=30.0))
-    # By the distance of its middle, the long wall is nearer than the box at its end, and behind the one before it.
-    for colour, x, y, length in (("green", 4.5, 2.5, 1.0), ("blue", 0.0, 1.1, 10.0), ("orange", 0.0, 0.0, 1.0)):
-        scene.add_obstacle(Obstacle(colour, Box(length, 0.5), (x, y, 0.0), height=1.0, colour=colour))
-    fills = [p.get("fill") for p in paths(draw(scene, title="t", alt="a")) if p.get("fill", "").startswith("#")]
-    hues = [max(range(3), key=lambda i: int(fill[2 * i + 1 : 2 * i + 3], 16)) for fill in fills]
-    assert sorted(hues, key=[1, 2, 0].index) == hues
-
-
 def test_points_of_a_laser_are_drawn_where_nothing_hides_them():
     scene = Scene3D(Camera((0.0, 0.0, 0.5), 6.0, azimuth=-90.0, elevation=0.0))
     scene.add_obstacle(Obstacle("wall", Box(2.0, 0.2), (1.0, 0.0, 0.0), height=1.0))
@@ -324,15 +259,6 @@ def test_a_replay_moves_the_robot_as_it_moved_and_turns_its_wheels():
     assert (right - left) * 0.033 / 0.160 == pytest.approx(3.0, abs=0.005)
 
 
-def test_a_replays_text_says_what_happened():
-    view = replay_3d(run())
-    assert view.text == (
-        "3D replay: burger in small, 12.0 s, 2.40 m\n"
-        "from (0.00, 0.00, 0.0 deg) to (1.26, 0.80, 171.9 deg); odometry ends 0.12 m off"
-    )
-    assert {trail.name for trail in view.scene.trails} == {"odometry", "truth"}
-
-
 def test_a_replays_scans_are_every_second_beam_in_millimetres():
     scan = replay_3d(run()).extra["scan"]
     assert scan["unit"] == 0.001
@@ -344,14 +270,6 @@ def test_a_replays_scans_are_every_second_beam_in_millimetres():
     long = replay_3d(run(60.0)).extra["scan"]
     assert len(long["times"]) <= 120
     assert unpacking.unpack(long["ranges"]).max() * long["unit"] == pytest.approx(1.0)
-
-
-def test_a_run_of_one_sample_is_a_scene_that_stands_still():
-    short = run()
-    short = replace(short, times=short.times[:1], truth=short.truth[:1], odom=short.odom[:1])
-    view = replay_3d(short)
-    assert view.scene.duration == 0
-    assert view.svg
 
 
 def test_what_the_camera_looks_at_is_asked_for_with_care():
@@ -424,106 +342,7 @@ def test_a_replay_of_several_robots_moves_each_and_what_was_pushed():
     assert "robot (waffle): " in view.text and "Beside it drive robot." in view.alt
 
 
-def test_a_laser_that_looks_ahead_only_has_its_hits_ahead():
-    lidar = replace(
-        BURGER.laser, beams=3, angle_min=-math.pi / 4, angle_max=math.pi / 4, mount=(0.0, 0.0, 0.2), yaw=0.0
-    )
-    view = robot_3d(SMALL, replace(BURGER, lidar=lidar), (1.0, 0.0, 0.0), np.array([1.0, 1.0, np.inf]))
-    half = math.sqrt(0.5)
-    np.testing.assert_allclose(view.scene.scans[0], [(1 + half, -half, 0.2), (2.0, 0.0, 0.2)], atol=2e-5)
-    turned = robot_3d(
-        SMALL, replace(BURGER, lidar=replace(lidar, yaw=math.pi)), (0, 0, 0), np.array([np.inf, 1.0, np.inf])
-    )
-    np.testing.assert_allclose(turned.scene.scans[0], [(-1.0, 0.0, 0.2)], atol=2e-5)
-
-
-def test_what_a_laser_without_noise_has_hit_is_drawn_before_the_surface():
-    lidar = replace(BURGER.laser, beams=1, noise=0.0, mount=(0.0, 0.0, 0.2))
-    view = robot_3d(SMALL, replace(BURGER, lidar=lidar), (1.0, 0.0, 0.0), np.array([1.0]))
-    ((x, y, z),) = view.scene.scans[0]
-    assert 1.98 < x < 1.995
-    assert (y, z) == pytest.approx((0.0, 0.2), abs=2e-5)
-
-
-def test_a_simulator_shows_all_its_robots():
-    with Graph() as graph:
-        simulator = Simulator(graph.node("simulator"), world="empty", model="burger")
-        simulator.spawn("tb3_1", "waffle", (1.0, 0.5, 0.0))
-        view = simulator.show3d()
-        assert "tb3_1 (waffle) at (1.00, 0.50, 0.0 deg)" in view.text
-        assert view.scene.nodes["others/tb3_1"][:3, 3] == pytest.approx((1.0, 0.5, 0.0))
-
-
 # Shapes
-
-
-def area(outline):
-    x, y = outline.T
-    return float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2)
-
-
-@given(st.integers(3, 12), st.randoms(use_true_random=False))
-def test_triangles_cover_a_polygon_with_inner_corners(corners, random):
-    """A star-shaped polygon around the origin is simple, whatever the radii."""
-    angles = np.arange(corners) * 2 * np.pi / corners
-    radii = np.array([random.uniform(0.2, 2.0) for _ in range(corners)])
-    outline = np.column_stack([np.cos(angles), np.sin(angles)]) * radii[:, None]
-    triangles = triangulate(outline)
-    assert triangles.shape == (corners - 2, 3)
-    areas = [area(outline[t]) for t in triangles]
-    assert min(areas) > -1e-9
-    assert sum(areas) == pytest.approx(area(outline))
-
-
-@pytest.mark.parametrize(
-    "solid",
-    [
-        Prism(np.array([(0, 0), (2, 0), (2, 1), (0, 1.0)]), 0.0, 1.0),
-        Rod((1, 2, 3), 0.5, 2.0),
-        Rod((1, 2, 3), 0.5, 2.0, "y"),
-        Ball((1, 2, 3), 0.5),
-    ],
-)
-def test_faces_look_outwards(solid):
-    faces = list(solid.faces())
-    middle = np.vstack(faces).mean(axis=0)
-    for face in faces:
-        normal = np.cross(face[1] - face[0], face[2] - face[1])
-        if np.linalg.norm(normal) > 1e-12:
-            assert normal @ (face.mean(axis=0) - middle) > 0
-
-
-def test_a_ribbon_is_as_wide_as_asked_and_looks_up():
-    corners, faces = ribbon(np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)]), 0.1, 0.01)
-    assert corners[:2, 1] == pytest.approx([0.05, -0.05])
-    assert corners[2:4, :2] == pytest.approx(np.array([(0.95, 0.05), (1.05, -0.05)]))
-    for a, b, c in corners[faces]:
-        assert np.cross(b - a, c - a)[2] > 0
-
-
-@given(st.lists(st.floats(-5, 5), min_size=1, max_size=60), st.floats(0.01, 1.0))
-def test_keyframes_tell_all_samples(values, tolerance):
-    times = np.arange(len(values)) * 0.1
-    kept = keyframes(times, np.array(values)[:, None], tolerance)
-    told = np.interp(times, times[kept], np.array(values)[kept])
-    assert np.abs(told - values).max() <= tolerance + 1e-7  # to which gaps are rounded
-
-
-def test_the_script_knows_the_dark_pages_of_the_house_style():
-    script = (ROOT / "rosmini/viz/static/rosmini-meshcat.js").read_text(encoding="utf-8")
-    assert json.dumps(", ".join(style.DARK_PAGES))[1:-1].replace('\\"', '"') in script
-
-
-@pytest.mark.parametrize("heading", [0.0, 0.8, 1.6, 2.4, 3.1, -0.7, -1.5, -2.3])
-@pytest.mark.parametrize("place", [(-0.5, 0.0), (1.2, -0.42), (3.1, 1.2), (0.05, 1.25)])
-def test_no_wall_stands_between_the_camera_and_the_robot(place, heading):
-    room = world("room")
-    camera = camera_for(room, (*place, heading), focus="robot", distance=None, azimuth=None, elevation=None)
-    x, y, z = camera.position
-    way = math.hypot(x - place[0], y - place[1])
-    angle = math.atan2(y - place[1], x - place[0])
-    clear = math.inf == raycast(room.segments, room.discs, *place, angle, 1.0, 1, way)[0]
-    assert clear or z > room.wall_height
 
 
 def test_a_run_of_layers_has_its_robots_and_what_lies_on_the_ground():

@@ -1,7 +1,5 @@
 """The panel of a bag."""
 
-from __future__ import annotations
-
 import pytest
 
 from rosmini.core.time import Time

@@ -1,7 +1,5 @@
 """Panels that only show."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

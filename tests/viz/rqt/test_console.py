@@ -1,11 +1,6 @@
 """rqt_console: which messages pass, and what the table says."""
 
-from __future__ import annotations
-
 import re
-from html.parser import HTMLParser
-from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -15,7 +10,7 @@ from rosmini.viz import ViewError
 from rosmini.viz.rqt.console import rqt_console
 
 
-def message(level: int, name: str, text: str, *, at: float = 1000.0, topics: tuple[str, ...] = ("/rosout",)) -> Any:
+def message(level, name, text, *, at=1000.0, topics=("/rosout",)):
     made = Log(level=level, name=name, msg=text, file="/home/user/ws/src/robot/talk.py", line=7, function="speak")
     made.header.stamp = Time.from_sec(at)
     made.topics = list(topics)
@@ -58,7 +53,7 @@ LOG = [
         ({"level": "WARN", "limit": 9}, [2, 3, 4]),
     ],
 )
-def test_filters(filters: dict[str, Any], shown: list[int]) -> None:
+def test_filters(filters, shown):
     table = rqt_console(LOG, **filters)
     assert [message.msg for message in table.messages] == [LOG[number].msg for number in shown]
     assert len(table) == len(shown)
@@ -67,7 +62,7 @@ def test_filters(filters: dict[str, Any], shown: list[int]) -> None:
         assert (first in table.text) == (number in shown)
 
 
-def test_the_text_is_an_aligned_table() -> None:
+def test_the_text_is_an_aligned_table():
     table = rqt_console(LOG, level="WARN", highlight="stalled", title="Figure 1")
     assert table.text == (
         "Figure 1: 3 of 5 messages\n"
@@ -81,74 +76,7 @@ def test_the_text_is_an_aligned_table() -> None:
     assert chosen.text.splitlines()[2] == "  Battery at 80 %  /rosout, /chatter"
 
 
-def test_outside_of_functions_a_location_is_a_line() -> None:
-    entry = message(2, "/talker", "text")
-    entry.file, entry.function = "C:\\ws\\talk.py", "<module>"
-    assert rqt_console([entry], columns=("location",)).text.splitlines()[1] == "  talk.py:7"
-    entry.file = ""
-    assert rqt_console([entry], columns=("location",)).text == "rqt_console: 1 message\n"
-
-
-def test_the_alt_text_counts_levels() -> None:
-    assert rqt_console(LOG, level="WARN", limit=2).alt == (
-        "Table of log messages, 2 of 5 messages (1 ERROR, 1 FATAL). "
-        "/robot1/motor: stalled:\nno current; /robot2/motor: burnt <out> & gone"
-    )
-    assert rqt_console([]).alt == "Table of log messages, 0 messages."
-
-
-class Cells(HTMLParser):
-    """Gathers the cells of a table, and checks that elements are closed in order."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.open: list[str] = []
-        self.cells: list[tuple[str, str, str]] = []
-        self.marked = 0
-        self.levels: list[str] = []
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        if tag == "wbr":  # it has no end
-            return
-        self.open.append(tag)
-        if tag in ("td", "th"):
-            self.cells.append((tag, dict(attrs).get("class") or "", ""))
-        self.marked += tag == "tr" and "marked" in (dict(attrs).get("class") or "").split()
-        if tag == "tr":
-            self.levels.append(dict(attrs).get("class") or "")
-
-    def handle_endtag(self, tag: str) -> None:
-        assert self.open.pop() == tag
-
-    def handle_data(self, data: str) -> None:
-        if self.open and self.open[-1] in ("td", "th"):
-            tag, kind, text = self.cells[-1]
-            self.cells[-1] = (tag, kind, text + data)
-
-
-def test_the_html_is_a_table() -> None:
-    table = rqt_console(LOG, title="Figure <1>", highlight="battery")
-    page = Cells()
-    page.feed(table.html)
-    page.close()
-    assert page.open == []
-    assert [text for tag, _, text in page.cells if tag == "th"] == [
-        "Stamp", "Severity", "Node", "Message", "Location",
-    ]  # fmt: skip
-    assert [text for _, kind, text in page.cells if kind == "rq-message"] == [entry.msg for entry in LOG]
-    assert ("td", "rq-severity", "FATAL") in page.cells
-    assert page.levels[-1] == "FATAL"
-    assert page.marked == 2
-    assert "Figure &lt;1&gt; (5 messages)" in table.html
-    assert "/home/user" not in table.html + table.text
-    assert table.html == rqt_console(LOG, title="Figure <1>", highlight="battery").html
-
-
-def test_an_empty_table_says_so() -> None:
-    assert "no message passes the filters" in rqt_console(LOG, text="nothing like it").html
-
-
-def test_forms(tmp_path: Path) -> None:
+def test_forms(tmp_path):
     table = rqt_console(LOG)
     data, _ = table._repr_mimebundle_()
     assert list(data) == ["text/plain", "text/html"]
@@ -167,18 +95,18 @@ def test_forms(tmp_path: Path) -> None:
         ({"node": "/a("}, "neither a name nor a regular expression"),
     ],
 )
-def test_filters_that_are_wrong(filters: dict[str, Any], said: str) -> None:
+def test_filters_that_are_wrong(filters, said):
     with pytest.raises(ViewError, match=said):
         rqt_console(LOG, **filters)
 
 
 @pytest.mark.parametrize("source", [5, "text", [5], object()])
-def test_what_is_no_log(source: object) -> None:
+def test_what_is_no_log(source):
     with pytest.raises(ViewError, match="has no log messages: give what"):
         rqt_console(source)
 
 
-def test_a_graph_shows_its_log() -> None:
+def test_a_graph_shows_its_log():
     with Graph() as graph:
         node, console = graph.node("node"), graph.console()
         graph.run(0.1)

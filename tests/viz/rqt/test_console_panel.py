@@ -1,7 +1,5 @@
 """The console that goes on: filters, highlights, pause."""
 
-from __future__ import annotations
-
 import pytest
 
 from rosmini.viz.rqt.console import LogConsole
@@ -76,9 +74,3 @@ def test_a_filter_that_is_none_is_refused_and_the_old_one_holds(console, say):
     with pytest.raises(ViewError, match="no filter colour"):
         console.filter(colour="red")
     assert shown(console) == ["one"]
-
-
-def test_its_node_is_its_only_one_and_ends_with_it(graph, console):
-    assert sum("rqt" in name for name in graph.nodes) == 1
-    console.close()
-    assert "/rqt_console" not in graph.nodes

@@ -1,7 +1,5 @@
 """rqt_graph: what is shown, in words and in the picture."""
 
-from __future__ import annotations
-
 import re
 import xml.etree.ElementTree as ET
 
@@ -12,15 +10,15 @@ from hypothesis import strategies as st
 from rosmini.core.errors import RosminiError
 from rosmini.core.graph.master import Master
 from rosmini.viz import GraphState, ViewError, rqt_graph
-from rosmini.viz.rqt.selection import is_debug, matches
+from rosmini.viz.rqt.selection import matches
 
 SVG = "{http://www.w3.org/2000/svg}"
 
 
-def state(*flows: str, services=(), **more) -> GraphState:
+def state(*flows, services=(), **more):
     """A state from lines such as "/talker -> /chatter std_msgs/String -> /listener"."""
-    publishers: dict[str, list[str]] = {}
-    subscribers: dict[str, list[str]] = {}
+    publishers = {}
+    subscribers = {}
     types = {}
     for flow in flows:
         sources, topic, sinks = (part.strip() for part in flow.split("->"))
@@ -68,7 +66,7 @@ class FakeMaster:
         return [1, "current system state", types]
 
 
-def drawn(view, kind: str) -> list[str]:
+def drawn(view, kind):
     """The texts of all nodes, topics or edges in the picture."""
     root = ET.fromstring(view.svg)
     groups = [g for g in root.iter(f"{SVG}g") if kind in (g.get("class") or "").split()]
@@ -115,14 +113,6 @@ def test_what_is_new_and_what_is_gone_since_an_earlier_state(mode):
     assert "rm-new" not in same.svg
 
 
-def test_an_object_with_a_master_and_the_plain_value_will_do_as_well():
-    class Graph:
-        master = FakeMaster()
-
-    assert rqt_graph(Graph()).text == rqt_graph(FakeMaster()).text
-    assert "/talker -> /chatter -> /listener" in rqt_graph(FakeMaster().getSystemState("/me")[2]).text
-
-
 def test_the_real_master_is_a_source():
     class Silent:
         def publisher_update(self, caller_api, topic, uris):
@@ -158,16 +148,6 @@ def test_without_hiding_everything_is_there_and_all_topics_are_boxes():
     assert drawn(view, "rm-topic") == ["/chatter", "/rosout", "/rosout_agg"]
     assert drawn(view, "rm-node") == ["/listener", "/rosout", "/talker"]
     assert "to nobody" in view.alt
-
-
-def test_active_shows_only_topics_with_a_connection():
-    graph = state(CHATTER, "/talker -> /unheard std_msgs/String ->", "-> /awaited std_msgs/String -> /listener")
-    everything = rqt_graph(graph, mode="nodes_topics_all", hide=())
-    active = rqt_graph(graph, mode="nodes_topics_active", hide=())
-    assert drawn(everything, "rm-topic") == ["/awaited", "/chatter", "/unheard"]
-    assert "(no publisher) -> /awaited [std_msgs/String] -> /listener" in everything.text
-    assert "nobody publishes /awaited to /listener" in everything.alt
-    assert drawn(active, "rm-topic") == ["/chatter"]
 
 
 @pytest.mark.parametrize(
@@ -259,11 +239,6 @@ def test_a_filter_whose_topics_are_all_hidden_says_what_draws_them():
     assert "No topic matches /imagge." in rqt_graph(graph, topics="/imagge").text
 
 
-def test_debug_names_are_those_of_the_real_tool():
-    assert all(map(is_debug, ["/rosout", "/rosout_agg", "/rviz_1604", "/rqt_gui_py_node_7", "/clock", "/x/_hidden"]))
-    assert not any(map(is_debug, ["/talker", "/turtle1/cmd_vel", "/move_base"]))
-
-
 def test_loops_and_parallel_edges_are_all_drawn():
     graph = state(
         "/a -> /x std_msgs/String -> /a /b", "/a -> /y std_msgs/String -> /a /b", "/b -> /z std_msgs/String -> /a"
@@ -277,17 +252,6 @@ def test_an_empty_graph_says_so(mode):
     assert view.text == "rqt_graph: 0 nodes, 0 topics"
     assert view.alt == "Computation graph with nothing to show."
     assert "(no node to show)" in view.svg
-
-
-def test_a_title_is_the_caption_and_heads_the_text():
-    view = rqt_graph(state(CHATTER), title="After <start>")
-    assert view.text.startswith("After <start>: 2 nodes")
-    assert "<figcaption>After &lt;start&gt;</figcaption>" in view.html
-
-
-def test_a_long_alt_text_stays_a_sentence():
-    graph = state(*(f"/n{i:02} -> /t{i:02} std_msgs/String -> /sink" for i in range(20)))
-    assert rqt_graph(graph).alt.endswith("/n05 publishes /t05 to /sink; and 14 more flows.")
 
 
 @pytest.mark.parametrize(
@@ -322,8 +286,8 @@ triples = st.lists(st.tuples(hostile, hostile, hostile), max_size=8)
 
 @given(triples, st.sampled_from(["nodes_only", "nodes_topics_all", "nodes_topics_active"]))
 def test_every_name_is_in_the_text_and_in_well_formed_svg_whatever_it_is(flows, mode):
-    publishers: dict[str, set[str]] = {}
-    subscribers: dict[str, set[str]] = {}
+    publishers = {}
+    subscribers = {}
     for source, topic, sink in flows:
         publishers.setdefault(topic, set()).add(source)
         subscribers.setdefault(topic, set()).add(sink)
@@ -341,8 +305,8 @@ def test_every_name_is_in_the_text_and_in_well_formed_svg_whatever_it_is(flows, 
 @given(triples, st.randoms(use_true_random=False))
 def test_the_order_of_registration_does_not_change_a_byte(flows, random):
     def picture():
-        publishers: dict[str, list[str]] = {}
-        subscribers: dict[str, list[str]] = {}
+        publishers = {}
+        subscribers = {}
         for source, topic, sink in flows:
             publishers.setdefault(topic, []).append(source)
             subscribers.setdefault(topic, []).append(sink)

@@ -1,7 +1,5 @@
 """What is beside a node or a topic in rqt_graph."""
 
-from __future__ import annotations
-
 import pytest
 
 from rosmini.viz import ViewError
@@ -43,10 +41,6 @@ def test_the_drawing_has_the_chosen_one_its_neighbours_and_pales_the_rest():
     assert {kind: body.count(f" rm-{kind}") for kind in ("chosen", "in", "out", "pale")} == {
         "chosen": 1, "in": 2, "out": 0, "pale": 4,
     }  # fmt: skip
-
-
-def test_a_picture_without_a_highlight_is_as_before():
-    assert rqt_graph(STATE, highlight="").svg == rqt_graph(STATE).svg
 
 
 def test_what_is_not_drawn_is_refused():

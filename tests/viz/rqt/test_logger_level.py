@@ -1,7 +1,5 @@
 """The logger levels of a node, through its services."""
 
-from __future__ import annotations
-
 import pytest
 
 from rosmini.core.errors import ServiceException
@@ -29,11 +27,6 @@ def test_a_level_that_is_chosen_holds_in_the_node(levels, talker, graph):
     assert [message.msg for message in console.messages if message.name == "/talker"] == ["heard"]
     assert "rosout          Debug" in levels.text
     assert "rosout logs from Debug on" in levels.text
-
-
-def test_it_lists_nodes_but_not_itself(levels):
-    assert "/talker" in levels.names()
-    assert "/rqt_logger_level" not in levels.names()
 
 
 def test_refresh_asks_again(levels, talker, graph):

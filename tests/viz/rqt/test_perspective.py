@@ -1,7 +1,5 @@
 """Files of perspectives: those of the real rqt are read, ours are in its form, and nothing in them is executed."""
 
-from __future__ import annotations
-
 import json
 
 import pytest
@@ -12,7 +10,7 @@ from rosmini.viz.rqt.perspective import Perspective, Running
 from rosmini.viz.view import ViewError
 
 
-def exported(running: str, **groups) -> str:
+def exported(running, **groups):
     """A file in the form of the real one, with what Qt keeps of its windows."""
     state = {"type": "repr(QByteArray.hex)", "repr(QByteArray.hex)": "QtCore.QByteArray('00ff')", "pretty-print": " "}
     keys = {"running-plugins": {"type": "repr", "repr": running}}

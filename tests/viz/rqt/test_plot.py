@@ -1,11 +1,5 @@
 """rqt_plot: what stands in messages, over time."""
 
-from __future__ import annotations
-
-import re
-from collections.abc import Iterator
-from pathlib import Path
-
 import pytest
 
 from rosmini import Graph
@@ -18,14 +12,14 @@ from rosmini.viz.rqt.plot import expanded, rqt_plot
 
 
 @pytest.fixture
-def graph() -> Iterator[Graph]:
+def graph():
     """A graph with a node that counts in `linear.x` and counts down in `angular.z`, ten times a second."""
     with Graph() as made:
         node = made.node("counter")
         publisher = node.publisher("cmd_vel", Twist)
         count = 0
 
-        def tick(_: object) -> None:
+        def tick(_):
             nonlocal count
             message = Twist()
             message.linear.x, message.angular.z = float(count), -0.5 * count
@@ -36,7 +30,7 @@ def graph() -> Iterator[Graph]:
         yield made
 
 
-def test_two_fields_over_the_time_that_passes(graph: Graph) -> None:
+def test_two_fields_over_the_time_that_passes(graph):
     before = graph.now().to_sec()
     view = rqt_plot(graph, "/cmd_vel/linear/x", "cmd_vel/angular/z", duration=2.0)
     assert graph.now().to_sec() - before == pytest.approx(2.0)
@@ -48,16 +42,10 @@ def test_two_fields_over_the_time_that_passes(graph: Graph) -> None:
     assert not [name for name in graph.nodes if "rqt" in name]
 
 
-def test_colons_stand_for_fields_beside_one_another() -> None:
+def test_colons_stand_for_fields_beside_one_another():
     assert expanded("/a/b/x:y:z") == ["/a/b/x", "/a/b/y", "/a/b/z"]
     assert expanded("/scan/ranges[0]") == ["/scan/ranges[0]"]
     assert expanded("/a/ranges[0:2]") == ["/a/ranges[0:2]"]
-
-
-def test_many_points_have_no_marks_of_their_own(graph: Graph) -> None:
-    few = rqt_plot(graph, "/cmd_vel/linear/x", duration=1.0).svg or ""
-    many = rqt_plot(graph, "/cmd_vel/linear/x", duration=10.0).svg or ""
-    assert len(re.findall("<use", few)) - len(re.findall("<use", many)) >= 10
 
 
 @pytest.mark.parametrize(
@@ -70,19 +58,19 @@ def test_many_points_have_no_marks_of_their_own(graph: Graph) -> None:
         ("/cmd_vel/linear[", "missing closing"),
     ],
 )
-def test_a_field_that_is_none_is_named_with_what_was_meant(graph: Graph, field: str, text: str) -> None:
+def test_a_field_that_is_none_is_named_with_what_was_meant(graph, field, text):
     graph.run(0.1)
     with pytest.raises(ViewError, match=text):
         rqt_plot(graph, field, duration=0.5)
 
 
 @pytest.mark.parametrize("duration", [0, -1, float("inf"), float("nan")])
-def test_a_duration_is_positive(graph: Graph, duration: float) -> None:
+def test_a_duration_is_positive(graph, duration):
     with pytest.raises(ViewError, match="positive number of seconds"):
         rqt_plot(graph, "/cmd_vel/linear/x", duration=duration)
 
 
-def test_a_topic_on_which_nothing_comes_and_no_field_at_all(graph: Graph) -> None:
+def test_a_topic_on_which_nothing_comes_and_no_field_at_all(graph):
     graph.node("mute").publisher("scan", LaserScan)
     with pytest.raises(ViewError, match="no message came for /scan/angle_min; listen longer"):
         rqt_plot(graph, "/scan/angle_min", duration=0.5)
@@ -90,7 +78,7 @@ def test_a_topic_on_which_nothing_comes_and_no_field_at_all(graph: Graph) -> Non
         rqt_plot(graph)
 
 
-def test_a_bag_is_read_from_end_to_end(tmp_path: Path) -> None:
+def test_a_bag_is_read_from_end_to_end(tmp_path):
     with Bag(tmp_path / "run.bag", "w") as bag:
         for number in range(5):
             scan = LaserScan(ranges=[float(number), 2.0])

@@ -1,7 +1,5 @@
 """The plot that goes on."""
 
-from __future__ import annotations
-
 import pytest
 
 from rosmini.msgs.geometry_msgs.msg import Point

@@ -1,7 +1,5 @@
 """The message publisher: rates, expressions, several topics."""
 
-from __future__ import annotations
-
 import pytest
 
 from rosmini.msgs.geometry_msgs.msg import Twist
@@ -38,15 +36,6 @@ def test_the_page_adds_fills_and_enables(publisher, graph, speeds):
     graph.run(0.1)
     assert speeds[3:] == [0.75]
     assert "[ ] publish /cmd_vel  rate of /cmd_vel [Hz]: 10  4 messages" in publisher.text
-
-
-def test_the_twin_does_the_same(publisher, graph, speeds):
-    row = publisher.add("cmd_vel", rate=10)
-    assert row.type == "geometry_msgs/Twist"  # as the Master knows
-    row.fill("linear/x", "i / 4")
-    row.enable()
-    graph.run(0.35)
-    assert speeds == [0.0, 0.25, 0.5]
 
 
 def test_a_rate_can_be_changed_while_it_publishes(publisher, graph, speeds):

@@ -1,7 +1,5 @@
 """The panel of parameters: what a description becomes, and what changes in the server."""
 
-from __future__ import annotations
-
 import math
 
 import pytest
@@ -94,12 +92,6 @@ def test_the_twin_does_the_same_and_the_text_shows_it(panel, server):
     assert (server.config["speed"], server.config["gain"]) == (1, 1.5)
     assert "gain       1.5      0 … 2   meaning of gain" in panel.text
     assert "speed      Fast             meaning of speed" in panel.text
-
-
-def test_what_somebody_else_changes_is_seen(panel, server, graph):
-    server.update_configuration({"gain": 0.25})
-    graph.run(0.1)
-    assert panel.values["gain"] == 0.25
 
 
 def test_a_group_is_collapsed(panel):

@@ -1,7 +1,5 @@
 """The service caller: what it offers, what it sends, and what it says when that fails."""
 
-from __future__ import annotations
-
 import pytest
 
 from rosmini.core.errors import ServiceException
@@ -53,18 +51,6 @@ def test_its_text_shows_request_and_response(graph, asked):
     caller.fill("data", "True")
     caller.call()
     assert "  message  string  'on'" in caller.text
-
-
-def test_the_services_that_every_node_has_come_last(graph, asked):
-    names = ServiceCaller(graph).names()
-    assert names[:2] == ["/nothing", "/switch"]
-    assert all(name.endswith(("/get_loggers", "/set_logger_level")) for name in names[2:])
-
-
-def test_a_service_without_fields_can_be_called(graph, asked):
-    caller = ServiceCaller(graph, "/nothing")
-    caller.set("call")
-    assert "no fields" in caller.text
 
 
 def test_what_fails_is_said_and_shown(graph, asked):

@@ -1,7 +1,5 @@
 """rqt_topic: what comes on the topics of a graph."""
 
-from __future__ import annotations
-
 import pytest
 
 from rosmini import Graph
@@ -11,12 +9,12 @@ from rosmini.viz import ViewError
 from rosmini.viz.rqt.topics import rqt_topic
 
 
-def row(text: str, name: str) -> list[str]:
+def row(text, name):
     """The words of the row that begins with a name."""
     return next(words for line in text.splitlines()[1:] if (words := line.split()) and words[0] == name)
 
 
-def test_rate_and_bandwidth_of_what_came() -> None:
+def test_rate_and_bandwidth_of_what_came():
     with Graph() as graph:
         node = graph.node("driver")
         publisher = node.publisher("cmd_vel", Twist)
@@ -29,7 +27,7 @@ def test_rate_and_bandwidth_of_what_came() -> None:
         assert row(table.text, "/mute")[1:] == ["std_msgs/String", "unknown", "unknown", "not", "heard"]
 
 
-def test_the_last_values_of_a_topic_that_is_expanded() -> None:
+def test_the_last_values_of_a_topic_that_is_expanded():
     with Graph() as graph:
         node = graph.node("arrays")
         numbers = node.publisher("numbers", Float64MultiArray, latch=True)

@@ -1,12 +1,9 @@
 """The topic monitor: what is ticked is heard."""
 
-from __future__ import annotations
-
 import pytest
 
 from rosmini.msgs.geometry_msgs.msg import Point
 from rosmini.viz.rqt.topics import TopicMonitor
-from rosmini.viz.view import ViewError
 
 
 @pytest.fixture
@@ -32,12 +29,3 @@ def test_a_topic_that_is_ticked_is_heard(graph, source):
     graph.run(0.1)
     assert source.num_connections() == 0
     assert "1.5" not in panel.text
-
-
-def test_the_twin_does_the_same(graph, source):
-    panel = TopicMonitor(graph, "/point")
-    assert panel.topics == ("/point",)
-    graph.run(0.5)
-    assert "1.5" in panel.text
-    with pytest.raises(ViewError, match="did you mean /point"):
-        panel.hear("/poit")

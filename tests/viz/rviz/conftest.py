@@ -1,9 +1,6 @@
 """A graph in simulated time with one node that says where frames are and publishes what a test wants shown."""
 
-from __future__ import annotations
-
 import math
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -16,18 +13,18 @@ from rosmini.viz.rviz import Scene
 class Stage:
     """`place` frames, `publish` messages, `show` a display: it returns the scene's only layer after an update."""
 
-    def __init__(self, graph: Graph) -> None:
+    def __init__(self, graph):
         self.graph = graph
         self.node = graph.node("robot")
         self._broadcaster = TransformBroadcaster(self.node)
         self._publishers = {}
         self._scenes = []
 
-    def place(self, parent: str, child: str, at=(0.0, 0.0, 0.0), yaw: float = 0.0) -> None:
+    def place(self, parent, child, at=(0.0, 0.0, 0.0), yaw=0.0):
         """Say where a frame is, now; scenes hear it when the graph runs on."""
         self._broadcaster.send(parent, child, at, (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)))
 
-    def publish(self, topic: str, message, frame: str | None = None, settle: float = 0.01) -> None:
+    def publish(self, topic, message, frame=None, settle=0.01):
         """Publish a message, latched; with a frame it is stamped with the present time. Then the graph runs on."""
         if frame is not None:
             message.header.frame_id, message.header.stamp = frame, self.graph.now()
@@ -36,14 +33,14 @@ class Stage:
         self._publishers[topic].publish(message)
         self.graph.run(settle)
 
-    def scene(self, config=None, fixed_frame: str | None = "map") -> Scene:
+    def scene(self, config=None, fixed_frame="map"):
         """A scene, closed at the end of the test."""
         made = Scene(self.graph, config, fixed_frame=fixed_frame)
         self._scenes.append(made)
         self.graph.run(0.01)  # connections take a moment
         return made
 
-    def display(self, kind: str, topic: str = "", **properties):
+    def display(self, kind, topic="", **properties):
         """A scene with one display of a topic, and that display; `more` are properties whose names are no words."""
         more = properties.pop("more", {})
         scene = self.scene()
@@ -52,13 +49,13 @@ class Stage:
         self.graph.run(0.01)
         return scene, made
 
-    def close(self) -> None:
+    def close(self):
         for scene in self._scenes:
             scene.close()
 
 
 @pytest.fixture
-def stage() -> Iterator[Stage]:
+def stage():
     with Graph() as graph:
         made = Stage(graph)
         yield made
@@ -72,5 +69,5 @@ def statuses():
 
 
 @pytest.fixture
-def data() -> Path:
+def data():
     return Path(__file__).parent / "data"

@@ -1,9 +1,6 @@
 """Point clouds as arrays: any fields, any byte order, and what does not fit."""
 
-from __future__ import annotations
-
 import struct
-from typing import Any
 
 import numpy as np
 import pytest
@@ -20,7 +17,7 @@ PointField = message_class("sensor_msgs/PointField")
 LAYOUT = "xyz"
 
 
-def cloud(rows: list[tuple[float, ...]], *, big: bool = False, width: int | None = None, **fields: Any) -> Any:
+def cloud(rows, *, big=False, width=None, **fields):
     """A cloud of x, y, z and intensity with 2 bytes between the points."""
     data = b"".join(struct.pack(">ffffxx" if big else "<ffffxx", *row) for row in rows)
     names = [PointField(name, 4 * i, 7, 1) for i, name in enumerate([*LAYOUT, "intensity"])]

@@ -1,7 +1,5 @@
 """Files of RViz: read, shown, and written again with all that was in them."""
 
-from __future__ import annotations
-
 import pytest
 import yaml
 from hypothesis import given

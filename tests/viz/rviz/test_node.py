@@ -1,7 +1,5 @@
 """The node `rviz/rviz`: what launch files start."""
 
-from __future__ import annotations
-
 import urllib.request
 
 import pytest

@@ -1,7 +1,5 @@
 """Panels as text."""
 
-from __future__ import annotations
-
 from rosmini.viz.rviz import Config
 from rosmini.viz.rviz.panels import TimePanel, selection, tool_properties, views
 from rosmini.viz.rviz.tools import Tools

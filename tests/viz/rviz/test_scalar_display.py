@@ -1,7 +1,5 @@
 """Displays of one number: where it was measured, in which colour, and what it is."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -24,7 +22,7 @@ def test_a_point_at_the_sensor_has_the_colour_of_its_value(stage, statuses, kind
     scene, display = stage.display(kind, "/value")
     low, high = display["Min Intensity"], display["Max Intensity"]
 
-    def measure(number: float):
+    def measure(number):
         stage.place("map", "sensor", (1.0, 2.0, 3.0))
         stage.graph.run(0.1)
         stage.publish("/value", message_class(f"sensor_msgs/{kind}")(**{field: number}), "sensor")

@@ -1,7 +1,5 @@
 """A scene: its node, its frames, and displays that do not disturb one another."""
 
-from __future__ import annotations
-
 import pytest
 
 from rosmini.viz import ViewError
@@ -9,7 +7,7 @@ from rosmini.viz.rviz import Display, Level
 from rosmini.viz.rviz.primitives import DisplayError
 
 
-def registered(stage) -> list[str]:
+def registered(stage):
     state = stage.graph.ask_as("/test").ask("getSystemState")
     return sorted({node for side in state[:2] for _, nodes in side for node in nodes if node.startswith("/rviz")})
 

@@ -1,7 +1,5 @@
 """What is under the pointer, and in a rectangle."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

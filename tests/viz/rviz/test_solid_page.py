@@ -1,9 +1,6 @@
 """RViz's window in three dimensions: what its page is sent, and what a hand does there."""
 
-from __future__ import annotations
-
 import math
-from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -19,7 +16,7 @@ from rosmini.viz.rviz.window import RVizWindow
 
 
 @pytest.fixture
-def window() -> Iterator[RVizWindow]:
+def window():
     grid = OccupancyGrid(data=[0] * 1600)
     grid.header.frame_id = "map"
     grid.info.width = grid.info.height = 40
@@ -89,7 +86,7 @@ def test_the_view_turns_with_the_page_and_the_page_with_the_view(window):
 
 
 def test_a_goal_is_dragged_on_the_ground_as_the_eye_sees_it(window):
-    goals: list[PoseStamped] = []
+    goals = []
     window.graph.node("listener").subscriber("/move_base_simple/goal", PoseStamped, goals.append)
     window.graph.run(0.1)
     window.set("tool/2D Nav Goal")

@@ -1,10 +1,7 @@
 """RViz's window: what a hand or keys do on it, on a running graph."""
 
-from __future__ import annotations
-
 import io
 import math
-from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -17,11 +14,10 @@ from rosmini.ros.interactive_markers import InteractiveMarkerServer
 from rosmini.ros.launch import roslaunch
 from rosmini.viz import ViewError
 from rosmini.viz.rqt.parts import Drawing, Rows
-from rosmini.viz.rviz import Config
 from rosmini.viz.rviz.window import RVizWindow
 
 
-def grid(side: int = 40) -> OccupancyGrid:
+def grid(side=40):
     message = OccupancyGrid(data=[0] * side * side)
     message.header.frame_id = "map"
     message.info.width = message.info.height = side
@@ -30,7 +26,7 @@ def grid(side: int = 40) -> OccupancyGrid:
 
 
 @pytest.fixture
-def graph() -> Iterator[Graph]:
+def graph():
     with Graph() as made:
         node = made.node("map_server")
         node.publisher("/map", OccupancyGrid, latch=True).publish(grid())
@@ -39,7 +35,7 @@ def graph() -> Iterator[Graph]:
 
 
 @pytest.fixture
-def window(graph) -> Iterator[RVizWindow]:
+def window(graph):
     made = RVizWindow(graph, fixed_frame="map")
     graph.run(0.5)
     made.set("fit")
@@ -124,16 +120,6 @@ def test_a_hand_drags_an_interactive_marker(graph, window):
     assert "box: " in window.text
 
 
-def test_keys_do_what_a_hand_does(graph, window):
-    goals = listen(graph, "/move_base_simple/goal", PoseStamped)
-    for key in ("g", "ArrowUp", "Enter", "ArrowLeft", "Enter"):
-        window.set("view", f"key {key}")
-    graph.run(0.1)
-    (goal,) = goals
-    assert abs(goal.pose.orientation.z) == pytest.approx(1.0)
-    assert goal.pose.position.y > 2.0
-
-
 def test_the_camera_follows_a_drag_and_zooms_around(graph, window):
     before = pixel(window, 2.0, 2.0)
     window.set("tool/Move Camera")
@@ -176,13 +162,6 @@ def test_select_lists_what_is_in_the_rectangle(graph, window):
     assert "Grid (rviz/Grid)" in window.text
 
 
-def test_a_frame_is_chosen_and_the_scene_begins_again(graph, window):
-    with pytest.raises(ViewError, match="Fixed Frame"):
-        window.set("frame", "nowhere")
-    window.set("reset")
-    assert "ROS Elapsed: 0.00" in window.text
-
-
 def test_what_is_no_movement_is_refused(window):
     for errors in ("press", "press 1", "press a b", "press nan 1", "fly 1 2", "", "key", "wheel 1 2"):
         with pytest.raises(ViewError):
@@ -212,15 +191,6 @@ def test_the_view_follows_what_comes_until_a_hand_is_on_it(graph):
     graph.run(0.5)
     window.parts()
     assert window._projection.scale == pytest.approx(1.25 * after)
-    window.close()
-
-
-def test_the_view_of_a_file_is_kept(graph):
-    text = "Visualization Manager:\n  Views:\n    Current: {Class: rviz/Orbit, Distance: 7}\n"
-    window = RVizWindow(graph, Config.parse(text))
-    assert window.scene.view.plugin_name == "rviz/Orbit"
-    window.set("closer")
-    assert window.scene.view["Distance"] == pytest.approx(5.6)
     window.close()
 
 

@@ -1,10 +1,5 @@
 """`rviz`: what RViz shows at this moment."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator
-from pathlib import Path
-
 import pytest
 
 from rosmini import Graph
@@ -19,7 +14,7 @@ from rosmini.viz.view import ViewError
 
 
 @pytest.fixture
-def graph() -> Iterator[Graph]:
+def graph():
     with Graph() as made:
         robot = made.node("robot")
         scans = robot.publisher("scan", LaserScan)
@@ -29,7 +24,7 @@ def graph() -> Iterator[Graph]:
         yield made
 
 
-def test_it_listens_and_leaves(graph: Graph, tmp_path: Path) -> None:
+def test_it_listens_and_leaves(graph, tmp_path):
     before = graph.now().to_sec()
     result = TOOL.run("--still", "--duration", "1", "--title", "Figure 21.1", graph=graph)
     assert graph.now().to_sec() == pytest.approx(before + 1.0, abs=0.11)
@@ -41,13 +36,13 @@ def test_it_listens_and_leaves(graph: Graph, tmp_path: Path) -> None:
     assert (tmp_path / "it.svg").read_text(encoding="utf-8").startswith("<svg")
 
 
-def test_a_file_and_a_frame(graph: Graph, tmp_path: Path) -> None:
+def test_a_file_and_a_frame(graph, tmp_path):
     from rosmini.viz.rviz import Scene
 
     with Scene(graph, fixed_frame="map") as scene:
         scene.add("LaserScan", {"Topic": "/scan"}, name="Front laser")
         scene.save(tmp_path / "my.rviz")
-    warned: list[str] = []
+    warned = []
     result = TOOL.run("-d", str(tmp_path / "my.rviz"), "-f", "odom", "--still", graph=graph, warn=warned.append)
     assert "fixed frame odom" in result.view.text
     assert "Front laser (rviz/LaserScan): Ok" in result.view.text
@@ -58,7 +53,7 @@ def test_a_file_and_a_frame(graph: Graph, tmp_path: Path) -> None:
     assert warned == ["[WARN] my.rviz: unknown, but preserved: property Front laser/Use unicorn"]
 
 
-def test_live_it_is_a_window_that_goes_on(graph: Graph) -> None:
+def test_live_it_is_a_window_that_goes_on(graph):
     result = TOOL.run("--live", "-f", "odom", graph=graph)
     assert isinstance(result, Shown)
     window = result.view
@@ -70,7 +65,7 @@ def test_live_it_is_a_window_that_goes_on(graph: Graph) -> None:
     assert "/rviz" not in graph.nodes
 
 
-def test_what_makes_no_sense(graph: Graph) -> None:
+def test_what_makes_no_sense(graph):
     with pytest.raises(ViewError, match="-d FILE"):
         TOOL.run("my.rviz", graph=graph)
     with pytest.raises(UsageError, match="--live"):

@@ -1,10 +1,7 @@
 """Camera: the image, and the scene over it where the camera's projection puts it."""
 
-from __future__ import annotations
-
 import math
 import re
-from typing import Any
 
 import numpy as np
 import pytest
@@ -26,7 +23,7 @@ BLUE = [0, 0, 200]
 class Filmed:
     """A camera in the map's origin that looks along its x axis at what the test puts there."""
 
-    def __init__(self, stage, statuses, **properties: Any) -> None:
+    def __init__(self, stage, statuses, **properties):
         self.stage, self.statuses = stage, statuses
         self.scene, self.display = stage.display(
             "Camera", more={"Image Topic": "/camera/image_raw", "Image Rendering": "background", **properties}
@@ -34,7 +31,7 @@ class Filmed:
         TransformBroadcaster(stage.node).send("map", "optical", (0.0, 0.0, 1.0), (-0.5, 0.5, -0.5, 0.5))
         stage.graph.run(0.1)
 
-    def shoot(self, **info: Any):
+    def shoot(self, **info):
         data = bytes(BLUE) * (WIDTH * HEIGHT)
         image = ImageMessage(width=WIDTH, height=HEIGHT, encoding="rgb8", step=3 * WIDTH, data=data)
         image.header.frame_id = "optical"
@@ -48,10 +45,10 @@ class Filmed:
         panes = self.scene.update()[0].panes
         return panes[0] if panes else None
 
-    def said(self) -> dict[str, Any]:
+    def said(self):
         return self.statuses(self.display)
 
-    def place_cube(self, x: float, y: float, z: float) -> None:
+    def place_cube(self, x, y, z):
         if "Marker" not in [each.name for each in self.scene]:
             self.scene.add("Marker", {"Marker Topic": "/cube"})
             self.stage.graph.run(0.1)
@@ -67,7 +64,7 @@ def filmed(stage, statuses):
     return Filmed(stage, statuses)
 
 
-def where(pane) -> tuple[float, float]:
+def where(pane):
     """The middle of what is drawn over the image (column, row)."""
     corners = []
     for path in re.findall(r' d="([^"]*)"', pane.overlay):

@@ -1,9 +1,6 @@
 """DepthCloud: where pixels with depths are in space, and in which colours."""
 
-from __future__ import annotations
-
 import math
-from typing import Any
 
 import numpy as np
 import pytest
@@ -19,7 +16,7 @@ K = [10.0, 0.0, 1.0, 0.0, 20.0, 0.5, 0.0, 0.0, 1.0]
 def cloud(stage, statuses):
     """Publish depths (2, 3), colours and a calibration in the fixed frame; return the points and what is said."""
 
-    def see(depths, colours=None, *, more=None, size=(3, 2), encoding="32FC1") -> tuple[Any, dict[str, Any]]:
+    def see(depths, colours=None, *, more=None, size=(3, 2), encoding="32FC1"):
         scene, display = stage.display(
             "DepthCloud", more={"Depth Map Topic": "/depth/image", "Color Image Topic": "/rgb/image", **(more or {})}
         )

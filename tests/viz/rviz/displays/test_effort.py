@@ -1,7 +1,5 @@
 """Effort: circles around joints, by their efforts and limits."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,10 +1,7 @@
 """Images in panes: encodings, ranges, and what cannot be shown."""
 
-from __future__ import annotations
-
 import math
 import struct
-from typing import Any
 
 import numpy as np
 import pytest
@@ -17,7 +14,7 @@ from rosmini.viz.rviz import still
 ImageMessage = message_class("sensor_msgs/Image")
 
 
-def image(data: bytes, encoding: str, width: int = 2, height: int = 1, **fields: Any) -> Any:
+def image(data, encoding, width=2, height=1, **fields):
     step = fields.pop("step", len(data) // max(height, 1))
     return ImageMessage(width=width, height=height, encoding=encoding, step=step, data=data, **fields)
 
@@ -27,7 +24,7 @@ def seen(stage, statuses):
     """Publish images, and return the pane and what is said."""
     scene, display = stage.display("Image", more={"Image Topic": "/image"})
 
-    def see(*images: Any, **properties: Any):
+    def see(*images, **properties):
         for name, value in properties.items():
             display[name.replace("_", " ")] = value
         for each in images:

@@ -1,9 +1,6 @@
 """Interactive markers: how they are seen, what a hand does to them, and what that publishes."""
 
-from __future__ import annotations
-
 import math
-from typing import Any
 
 import numpy as np
 import pytest
@@ -24,7 +21,7 @@ ALONG_X, ALONG_Z = (0.0, 0.0, 0.0, 1.0), (0.0, 1.0, 0.0, 1.0)
 HALF = math.sqrt(0.5)
 
 
-def marker(mode: int, axis=ALONG_X, *, name: str = "box", frame: str = "map", at=(1.0, 2.0, 0.0)) -> Any:
+def marker(mode, axis=ALONG_X, *, name="box", frame="map", at=(1.0, 2.0, 0.0)):
     made = InteractiveMarker(name=name, description=f"the {name}", scale=1.0)
     made.header.frame_id = frame
     made.pose.position.x, made.pose.position.y, made.pose.position.z = at
@@ -35,36 +32,36 @@ def marker(mode: int, axis=ALONG_X, *, name: str = "box", frame: str = "map", at
 class Shop:
     """A server, a display of its markers, and the feedback that comes."""
 
-    def __init__(self, stage) -> None:
+    def __init__(self, stage):
         self.graph, self.stage = stage.graph, stage
         self.server = InteractiveMarkerServer(stage.node, "basic")
-        self.feedback: list[Any] = []
+        self.feedback = []
         self.scene = stage.scene()
         self.display = self.scene.add("InteractiveMarkers", {"Update Topic": "/basic/update"})
         self.graph.run(1.5)
 
-    def show(self, *markers: Any) -> list[Any]:
+    def show(self, *markers):
         for each in markers:
             self.server.insert(each, self.feedback.append)
         self.server.applyChanges()
         self.graph.run(1.5)  # a new marker listens to nobody for a second
         return self.look()
 
-    def look(self) -> list[Any]:
+    def look(self):
         self.graph.run(0.01)
         return list(self.scene.update()[0].primitives)
 
-    def pose(self, name: str = "box") -> Any:
+    def pose(self, name="box"):
         """Where the server has it."""
         return self.server.get(name).pose
 
-    def events(self) -> list[int]:
+    def events(self):
         self.graph.run(0.01)
         return [each.event_type for each in self.feedback]
 
 
 @pytest.fixture
-def shop(stage) -> Shop:
+def shop(stage):
     return Shop(stage)
 
 
@@ -166,7 +163,7 @@ def test_controls_are_seen_with_the_tool_interact_and_only_those_that_are_held_d
 def test_buttons_and_menus(shop):
     button = marker(Control.BUTTON)
     button.controls[0].markers = [Marker(type=Marker.CUBE)]
-    chosen: list[int] = []
+    chosen = []
     menu = MenuHandler()
     mode = menu.insert("Mode")
     menu.insert("Fast", parent=mode, callback=lambda feedback: chosen.append(feedback.menu_entry_id))

@@ -1,14 +1,12 @@
 """LaserScan: which ranges are points, where, and in which colours."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
 from rosmini.msgs.sensor_msgs.msg import LaserScan
 
 
-def scan(ranges, intensities=()) -> LaserScan:
+def scan(ranges, intensities=()):
     return LaserScan(
         ranges=ranges, intensities=intensities, angle_min=0.0, angle_increment=np.pi / 2, range_min=0.2, range_max=3.5
     )
@@ -40,13 +38,6 @@ def test_flat_and_axis_colours(stage):
         **{"Color Transformer": "AxisColor", "Axis": "X", "Autocompute Value Bounds": True},
     )
     assert len({tuple(each) for each in np.round(found.colours, 6)}) == 3
-
-
-def test_a_style_has_its_own_size(stage):
-    found, _ = points(stage, scan([1.0]), **{"Style": "Points", "Size (Pixels)": 5.0, "Size (m)": 0.3})
-    assert (found.style, found.size) == ("Points", 5.0)
-    found, _ = points(stage, scan([1.0]), **{"Style": "Spheres", "Size (m)": 0.3})
-    assert (found.style, found.size) == ("Spheres", 0.3)
 
 
 @pytest.mark.parametrize("ranges", [[], [float("nan")] * 3])

@@ -1,7 +1,5 @@
 """Map: RViz's colours, updates, and maps that are none."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -10,7 +8,7 @@ from rosmini.msgs.nav_msgs.msg import OccupancyGrid
 from rosmini.viz.map_colours import MAX_SIDE, colours_of, thinned
 
 
-def grid(cells, resolution=0.5) -> OccupancyGrid:
+def grid(cells, resolution=0.5):
     made = OccupancyGrid()
     cells = np.asarray(cells, dtype=np.int8)
     made.info.height, made.info.width = cells.shape

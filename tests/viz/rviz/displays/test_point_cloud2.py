@@ -1,9 +1,6 @@
 """Clouds, old and new: their points, their colours, and for how long they stay."""
 
-from __future__ import annotations
-
 import math
-from typing import Any
 
 import numpy as np
 import pytest
@@ -21,7 +18,7 @@ PointField = message_class("sensor_msgs/PointField")
 PLACES = [(1.0, 0.0, 0.0), (2.0, 0.0, 0.5), (math.nan, 0.0, 0.0), (3.0, 1.0, 1.0)]
 
 
-def cloud(rows: list[tuple[Any, ...]], *names: str) -> Any:
+def cloud(rows, *names):
     fields = [PointField(name, 4 * i, 6 if name == "rgb" else 7, 1) for i, name in enumerate(["x", "y", "z", *names])]
     return point_cloud2.create_cloud(Header(), fields, rows)
 

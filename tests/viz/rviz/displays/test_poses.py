@@ -1,7 +1,5 @@
 """Pose, PoseWithCovariance, PoseArray, Odometry, Path, PointStamped, Polygon: where they are."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -9,7 +7,6 @@ import pytest
 
 from rosmini.msgs.geometry_msgs.msg import (
     Point32,
-    PointStamped,
     PolygonStamped,
     Pose,
     PoseArray,
@@ -17,19 +14,19 @@ from rosmini.msgs.geometry_msgs.msg import (
     PoseWithCovarianceStamped,
 )
 from rosmini.msgs.nav_msgs.msg import Odometry, Path
-from rosmini.viz.rviz.primitives import Lines, Mesh
+from rosmini.viz.rviz.primitives import Lines
 
 NAN = float("nan")
 
 
-def pose(x: float = 0.0, y: float = 0.0, yaw: float = 0.0) -> Pose:
+def pose(x=0.0, y=0.0, yaw=0.0):
     made = Pose()
     made.position.x, made.position.y = x, y
     made.orientation.z, made.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
     return made
 
 
-def extent(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
+def extent(mesh):
     return mesh.placed.min(axis=0), mesh.placed.max(axis=0)
 
 
@@ -63,7 +60,7 @@ def test_a_pose_that_is_none(stage, statuses):
     assert "Message" not in statuses(display)
 
 
-def covariance(x: float, y: float, yaw: float) -> list[float]:
+def covariance(x, y, yaw):
     made = np.zeros((6, 6))
     made[0, 0], made[1, 1], made[5, 5] = x, y, yaw
     return made.ravel().tolist()
@@ -99,7 +96,7 @@ def test_a_huge_variance_means_unknown(stage, statuses):
     assert "unknown" in statuses(display)["Message"][1]
 
 
-def odometry(x: float, yaw: float = 0.0) -> Odometry:
+def odometry(x, yaw=0.0):
     made = Odometry()
     made.pose.pose = pose(x, 0.0, yaw)
     return made
@@ -137,13 +134,6 @@ def test_a_path_is_a_line_and_its_poses_are_shown_if_asked(stage, statuses):
     assert statuses(display)["Topic"][0] == "Error"
 
 
-def test_a_buffer_of_paths(stage):
-    scene, _ = stage.display("Path", "/plan", more={"Buffer Length": 2})
-    for _ in range(3):
-        stage.publish("/plan", Path(poses=[PoseStamped(pose=pose())] * 2), "map")
-    assert len(scene.update()[0].primitives) == 2
-
-
 def test_particles_are_one_primitive_or_solid_ones_in_bounds(stage, statuses):
     scene, display = stage.display("PoseArray", "/particlecloud")
     stage.publish("/particlecloud", PoseArray(poses=[pose(float(i)) for i in range(1200)]), "map")
@@ -156,17 +146,6 @@ def test_particles_are_one_primitive_or_solid_ones_in_bounds(stage, statuses):
     stage.publish("/particlecloud", PoseArray(), "map")
     display["Shape"] = "Arrow (Flat)"
     assert scene.update()[0].primitives == ()
-
-
-def test_points_have_a_history(stage):
-    scene, _ = stage.display("PointStamped", "/clicked_point", more={"History Length": 2, "Radius": 0.5})
-    for x in (1.0, 2.0, 3.0):
-        message = PointStamped()
-        message.point.x = x
-        stage.publish("/clicked_point", message, "map")
-    second, third = scene.update()[0].primitives
-    assert [each.pose[0, 3] for each in (second, third)] == [2.0, 3.0]
-    assert extent(third)[1][0] == pytest.approx(3.5)
 
 
 def test_a_polygon_is_closed(stage, statuses):

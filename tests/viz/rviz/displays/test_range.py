@@ -1,7 +1,5 @@
 """Range and GridCells."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -12,7 +10,7 @@ from rosmini.msgs.nav_msgs.msg import GridCells
 from rosmini.msgs.sensor_msgs.msg import Range
 
 
-def echo(reach: float, low: float = 0.1, high: float = 4.0) -> Range:
+def echo(reach, low=0.1, high=4.0):
     return Range(field_of_view=math.pi / 2, min_range=low, max_range=high, range=reach)
 
 

@@ -1,7 +1,5 @@
 """RobotModel: links where tf says that they are, and robots that cannot be read."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Displays as the real RViz writes them into its files: every property is known here, and written again as it was."""
 
-from __future__ import annotations
-
 import pytest
 import yaml
 

@@ -1,7 +1,5 @@
 """TF and Grid: frames, their names and arrows, and a grid in a frame."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

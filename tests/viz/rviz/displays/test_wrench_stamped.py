@@ -1,7 +1,5 @@
 """WrenchStamped: arrows for a force and a torque."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -55,10 +53,3 @@ def test_small_and_wrong_ones(drawn):
     found, said = drawn(wrench((math.nan, 0.0, 0.0)))
     assert not found
     assert said["Topic"] == ("Error", "Message contained invalid floating point values (nans or infs)")
-
-
-def test_a_history_is_kept(drawn):
-    drawn.display["History Length"] = 2
-    for x in (1.0, 2.0, 3.0):
-        found, _ = drawn(wrench((x, 0.0, 0.0)))
-    assert [np.ptp(each.placed[:, 0]) for each in found] == pytest.approx([4.0, 6.0])
