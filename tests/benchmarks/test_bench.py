@@ -1,18 +1,13 @@
 """The benchmarks run and check what their subscribers received; how fast they are is not judged."""
 
-from __future__ import annotations
-
 import json
 import math
 import os
 import sys
 from contextlib import closing
-from typing import TYPE_CHECKING
 
 import pytest
 from rosmini_bench import (
-    Figure,
-    Measure,
     actions,
     bags,
     displays,
@@ -21,7 +16,6 @@ from rosmini_bench import (
     nav,
     sim,
     sim_peer,
-    table,
     tools,
     transforms,
     turtles,
@@ -30,9 +24,6 @@ from rosmini_bench import (
 
 from rosmini.core.errors import RosminiError
 from rosmini.tools.main import main
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 EXPONENTS_AND_ERRORS = {"1", "m", "m/s", "blocks more"}
 """Units of what may be nothing, or less."""
@@ -45,9 +36,7 @@ PEERS = {"pymunk", "unrecorded", "scipy", "csgraph", "scikit-image", "C++ costma
 @pytest.mark.nightly
 @pytest.mark.ros
 @pytest.mark.processes
-def test_every_measure_gives_a_positive_figure(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_every_measure_gives_a_positive_figure(tmp_path, capsys, monkeypatch):
     """Ours, and beside it real rospy, its wire and its bags where they are installed: all in one run."""
     monkeypatch.setattr(sim_peer, "find_irsim", lambda: None)  # see test_bench_sim.py
     file = tmp_path / "figures.json"
@@ -60,7 +49,7 @@ def test_every_measure_gives_a_positive_figure(
         [
             *graph.measures(None, 1), *actions.measures(None, 1), *transforms.measures(None, 1),
             *launch_files.measures(None, 1), *tools.measures(None, 1), *bags.measures(tmp_path, None, 1),
-            *displays.measures(1), *sim.measures(None, None, 0.001), *turtles.measures(1), *nav.measures(0.1),
+            *displays.measures(1), *sim.measures(None, 0.001), *turtles.measures(1), *nav.measures(0.1),
         ]
     )  # fmt: skip
     for row in rows:
@@ -84,7 +73,7 @@ def test_every_measure_gives_a_positive_figure(
     assert all(row["peer"] > 0 for row in [*wires, *bagged, *compared] if row["peer"] is not None)
 
 
-def test_nothing_else_is_measured_beside_it_if_one_says_so(tmp_path: Path) -> None:
+def test_nothing_else_is_measured_beside_it_if_one_says_so(tmp_path):
     file = tmp_path / "figures.json"
     words = ["bench", "turtles", "--no-peer", "--rounds", "1", "--scale", "0.001"]
     assert main([*words, "--json", str(file)]) == 0
@@ -92,12 +81,12 @@ def test_nothing_else_is_measured_beside_it_if_one_says_so(tmp_path: Path) -> No
         assert row["peer"] is None or row["peer_name"] in PEERS
 
 
-def test_what_comes_back_of_a_recorded_bag_is_all(tmp_path: Path) -> None:
+def test_what_comes_back_of_a_recorded_bag_is_all(tmp_path):
     *_, last = bags.measures(tmp_path, None, 0.01)
     assert last.run(1).ours == 100.0
 
 
-def test_messages_that_are_lost_on_the_wire_give_no_figure(tmp_path: Path) -> None:
+def test_messages_that_are_lost_on_the_wire_give_no_figure(tmp_path):
     node = tmp_path / "node.py"
     node.write_text("import sys\nfor _ in sys.stdin: print('@ \"lost\"', flush=True)\n", encoding="utf-8")
     process = wire.Process([sys.executable, str(node)], dict(os.environ))
@@ -108,36 +97,13 @@ def test_messages_that_are_lost_on_the_wire_give_no_figure(tmp_path: Path) -> No
         process.answer()
 
 
-def test_a_bag_that_is_not_what_was_written_gives_no_figure(tmp_path: Path) -> None:
+def test_a_bag_that_is_not_what_was_written_gives_no_figure(tmp_path):
     bags.write(tmp_path / "x.bag", "string", 10)
     with pytest.raises(RosminiError, match="no figure"):
         bags.read(tmp_path / "x.bag", "string", 11)
 
 
-def test_a_figure_is_the_median_and_the_two_take_turns() -> None:
-    order: list[str] = []
-    ours, peer = iter([5.0, 1.0, 3.0]), iter([1.0, 1.0, 9.0])
-
-    def mine() -> float:
-        order.append("ours")
-        return next(ours)
-
-    def theirs() -> float:
-        order.append("peer")
-        return next(peer)
-
-    figure = Measure("thing", "1/s", mine, theirs).run(3)
-    assert (figure.ours, figure.peer, figure.ratio) == (3.0, 1.0, 3.0)
-    assert order == ["ours", "peer"] * 3
-
-
-def test_less_can_be_better() -> None:
-    figure = Figure("latency", "us", 2.0, 10.0, "rospy", 1, more_is_better=False)
-    assert figure.ratio == 5.0
-    assert "5.0" in table([figure]).splitlines()[1]
-
-
-def test_a_subscriber_that_misses_something_gives_no_figure(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_subscriber_that_misses_something_gives_no_figure(monkeypatch):
     connected = graph._connected
     monkeypatch.setattr(
         graph,
@@ -149,6 +115,6 @@ def test_a_subscriber_that_misses_something_gives_no_figure(monkeypatch: pytest.
 
 
 @pytest.mark.parametrize("words", [["--rounds", "0"], ["--scale", "0"], ["--scale", "nan"]])
-def test_wrong_options_are_refused(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+def test_wrong_options_are_refused(words, capsys):
     assert main(["bench", "--no-peer", *words]) != 0
     assert "whole number" in capsys.readouterr().err

@@ -1,13 +1,12 @@
 """The measurements of local planners, run once: what they say is checked against what physics says."""
 
-from __future__ import annotations
-
 import math
 
 import pytest
 from rosmini_bench import nav_control
 
 
+@pytest.mark.nightly
 def test_a_cycle_is_what_its_figure_says():
     samples = nav_control.cycle()()
     assert 760 <= len(samples) <= 800

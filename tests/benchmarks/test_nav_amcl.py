@@ -1,7 +1,5 @@
 """The study of amcl runs, on a drive that is short, and knows a robot that is found from one that is not."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Robots that cross one another: two exchange places in the house, each with amcl, and nobody touches anybody."""
 
-from __future__ import annotations
-
 import pytest
 from rosmini_bench.nav_crossing import destinations, run
 

@@ -1,8 +1,7 @@
 """The driver of the studies goes around what can be pushed, and does not push for long what it meets."""
 
-from __future__ import annotations
-
 import numpy as np
+import pytest
 from rosmini_bench import nav_drives
 from rosmini_bench.nav_drives import terrain
 
@@ -21,6 +20,7 @@ def test_what_can_be_pushed_stands_in_the_drivers_way():
         assert (np.abs(places - middle).max(axis=1) > 3).all(), thing.name
 
 
+@pytest.mark.nightly
 def test_a_driver_who_meets_something_backs_off():
     with Graph(seed=1) as graph:
         node = graph.node("simulator")

@@ -1,7 +1,5 @@
 """What the study of exploration counts, and one short run of it."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from rosmini_bench import nav_explore
@@ -39,6 +37,7 @@ def test_the_table():
     assert other.endswith("| 60.0 | abd |")
 
 
+@pytest.mark.nightly
 def test_a_run_that_is_cut_short():
     one = nav_explore.explore("maze", "explore_lite", 1, longest=12.0)
     assert not one.ended

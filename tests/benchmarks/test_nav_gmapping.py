@@ -1,7 +1,5 @@
 """The study of gmapping: its figures are what their names say, on paths and walls by hand, and it runs."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,14 +1,14 @@
 """The study of hector_mapping runs on a short drive; its figures show a mapper that is lost."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from rosmini_bench import nav_hector
 from rosmini_bench.nav_drives import drive
 
 
+@pytest.mark.nightly
 def test_a_short_drive():
     one = drive("house", 1, 8.0, turn=0.5, sweep=False)
     assert np.hypot(*np.ptp(one.truth[:, :2], axis=0)) > 0.3

@@ -1,7 +1,5 @@
 """The page about localisation is made of the committed rows, and a row of a seed replaces the one before."""
 
-from __future__ import annotations
-
 from rosmini_bench import nav_located
 from rosmini_bench.nav_located import Row
 

@@ -1,7 +1,5 @@
 """Goals that are kept as data, and the page of the book that is made of them."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest

@@ -1,7 +1,5 @@
 """Drives that are written down line by line: what is read again, and what is not driven again."""
 
-from __future__ import annotations
-
 import pytest
 from rosmini_bench import nav_study
 from rosmini_bench.nav_crossing import Crossing

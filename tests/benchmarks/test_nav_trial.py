@@ -1,7 +1,5 @@
 """Drives of navigation begin where the robot has room, and say why one did not begin."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

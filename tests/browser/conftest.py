@@ -1,7 +1,5 @@
 """A headless Chromium, a watcher that reports what a page says, raises and fetches, and a JupyterLab."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil
@@ -45,7 +43,7 @@ PLACES = [
 """Where macOS and Windows have it, which put it on no search path."""
 
 
-def chromium_path() -> str | None:
+def chromium_path():
     """Where Chromium or Chrome is: `ROSMINI_CHROMIUM`, or on the search path, or in its system's usual place."""
     given = os.environ.get("ROSMINI_CHROMIUM")
     if given:
@@ -80,15 +78,15 @@ def chromium():
 class Watcher:
     """What `page` wrote to the console, raised, and asked for outside of file://."""
 
-    def __init__(self, page) -> None:
-        self.seen: list[str] = []
+    def __init__(self, page):
+        self.seen = []
         page.on("console", self.console)
         page.on("pageerror", self.raised)
         page.on("requestfailed", self.failed)
         page.on("request", self.request)
         self.page = page
 
-    def end(self) -> list[str]:
+    def end(self):
         """Leave the page, which another test may have then; return what was seen."""
         self.page.goto("about:blank")
         self.page.remove_listener("console", self.console)
@@ -97,19 +95,19 @@ class Watcher:
         self.page.remove_listener("request", self.request)
         return self.seen
 
-    def raised(self, error) -> None:
+    def raised(self, error):
         self.seen.append(f"error: {error}")
 
-    def console(self, message) -> None:
+    def console(self, message):
         # Reading a picture back out of a software renderer, as a screenshot does, is slow, and it says so.
         if "GPU stall due to ReadPixels" not in message.text:
             self.seen.append(f"console {message.type}: {message.text}")
 
-    def failed(self, request) -> None:
+    def failed(self, request):
         if request.failure != "net::ERR_ABORTED":  # what a page still loads when it is left
             self.seen.append(f"failed: {request.url}")
 
-    def request(self, request) -> None:
+    def request(self, request):
         if not request.url.startswith(("file:", "data:", "blob:")):
             self.seen.append(f"request: {request.url}")
 
@@ -126,9 +124,9 @@ class Tabs:
     here: scripts that it starts with, a clock of the tests' own.
     """
 
-    def __init__(self, browser) -> None:
+    def __init__(self, browser):
         self.browser = browser
-        self.free: dict[str, list] = {}
+        self.free = {}
 
     @contextmanager
     def open(self, viewport, **options):

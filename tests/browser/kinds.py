@@ -1,7 +1,5 @@
 """One small picture of each kind, the same on every machine: what reference images are made of."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

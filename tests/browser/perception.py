@@ -6,8 +6,6 @@ place in the other picture, since letters may lie a little beside. That is asked
 one picture is too much in the other.
 """
 
-from __future__ import annotations
-
 import io
 
 import numpy as np
@@ -20,33 +18,30 @@ CELL = 4
 """The side of a cell, of which a block has four [px]."""
 
 
-def cells(png: bytes) -> Floats:
+def cells(png):
     """The mean colours (rows, columns, 3) of the cells of a screenshot, 0 to 255; the rest at its edges is cut off."""
     with Image.open(io.BytesIO(png)) as image:
         pixels = np.asarray(image.convert("RGB"), dtype=np.float64)
     rows, columns = (side // CELL for side in pixels.shape[:2])
     whole = pixels[: rows * CELL, : columns * CELL]
-    means: Floats = whole.reshape(rows, CELL, columns, CELL, 3).mean(axis=(1, 3))
-    return means
+    return whole.reshape(rows, CELL, columns, CELL, 3).mean(axis=(1, 3))
 
 
-def difference(one: Floats, other: Floats) -> Floats:
+def difference(one, other):
     """How much each block of two pictures of one size, given by their cells, differs in its worst channel, 0 to 255."""
     ours, theirs = ((each[:-1, :-1] + each[1:, :-1] + each[:-1, 1:] + each[1:, 1:]) / 4 for each in (one, other))
-    worst: Floats = np.maximum(_beyond(ours, theirs), _beyond(theirs, ours))
-    return worst
+    return np.maximum(_beyond(ours, theirs), _beyond(theirs, ours))
 
 
-def _beyond(ours: Floats, theirs: Floats) -> Floats:
+def _beyond(ours, theirs):
     """How far each block of one is from the most alike of the nine around its place in the other."""
     rows, columns = ours.shape[:2]
     padded = np.pad(theirs, ((1, 1), (1, 1), (0, 0)), mode="edge")
     around = [padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3)]
-    least: Floats = np.min([np.abs(ours - each).max(axis=2) for each in around], axis=0)
-    return least
+    return np.min([np.abs(ours - each).max(axis=2) for each in around], axis=0)
 
 
-def why(one: Floats, other: Floats, tolerance: float) -> str | None:
+def why(one, other, tolerance):
     """In what two pictures do not look alike, or None."""
     if one.shape != other.shape:
         return f"it is {one.shape[1]} x {one.shape[0]} cells, not {other.shape[1]} x {other.shape[0]}"

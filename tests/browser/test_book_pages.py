@@ -1,7 +1,5 @@
 """Every page of the built book in a real browser, from file://: an empty console, and nothing from the network."""
 
-from __future__ import annotations
-
 import os
 
 import pytest
@@ -19,7 +17,7 @@ SIDEWAYS = "document.documentElement.scrollWidth - document.documentElement.clie
 IS_DRAWN = "() => new Promise(drawn => requestAnimationFrame(() => requestAnimationFrame(drawn)))"
 
 
-def problems_of(page, width: str, scheme: str) -> list[str]:
+def problems_of(page, width, scheme):
     """What is wrong with a page as it is shown now."""
     found = []
     if page.evaluate(SIDEWAYS) > 0:
@@ -49,7 +47,7 @@ def test_each_page_opens_with_an_empty_console(book_html, chromium, watch, share
     watcher = watch(page)
     problems = []
 
-    def look(scheme: str, width: str) -> None:
+    def look(scheme, width):
         page.emulate_media(color_scheme=scheme)
         page.set_viewport_size(sizes[width])
 

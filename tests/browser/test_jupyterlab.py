@@ -1,7 +1,5 @@
 """A live graph in a real JupyterLab: a button that publishes, between cells and while a cell is busy."""
 
-from __future__ import annotations
-
 import re
 
 import pytest
@@ -55,12 +53,12 @@ def test_a_button_publishes_between_cells_and_while_a_cell_is_busy(lab, chromium
     cells.nth(len(CELLS) - 1).wait_for()
     page.locator("#jp-main-statusbar", has_text="| Idle").wait_for()
 
-    def run(number: int) -> None:
+    def run(number):
         cells.nth(number).locator(".jp-InputArea-editor").click()
         page.keyboard.press("Control+Enter")
         cells.nth(number).locator(".jp-InputPrompt", has_text=re.compile(r"\[[*\d]+\]")).first.wait_for()
 
-    def says(number: int, text: str) -> None:
+    def says(number, text):
         cells.nth(number).locator(".jp-OutputArea-output", has_text=text).first.wait_for()
 
     try:

@@ -1,7 +1,5 @@
 """3D pictures in a real browser: in the book's form below a nested folder, and alone; from file://, offline."""
 
-from __future__ import annotations
-
 import io
 import math
 import shutil

@@ -1,7 +1,5 @@
 """A script that asks, in a real JupyterLab: somebody types below the cell in which time passes."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

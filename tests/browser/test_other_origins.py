@@ -1,7 +1,5 @@
 """Pages of another origin against our servers on this machine: nothing that they send does anything, or is read."""
 
-from __future__ import annotations
-
 import threading
 from contextlib import ExitStack, closing, contextmanager
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
@@ -50,13 +48,13 @@ ATTACK = """async ([addresses, body]) => {
 class Page(BaseHTTPRequestHandler):
     """The attacker's website: one empty page."""
 
-    def do_GET(self) -> None:
+    def do_GET(self):
         self.send_response(200)
         self.send_header("Content-Type", "text/html")
         self.end_headers()
         self.wfile.write(b"<!DOCTYPE html><title>evil</title><body>")
 
-    def log_message(self, *_) -> None:
+    def log_message(self, *_):
         """Say nothing."""
 
 
@@ -152,10 +150,10 @@ class Widget:
     state = {"secret": "42"}
     sink = None
 
-    def __init__(self) -> None:
+    def __init__(self):
         self.heard = []
 
-    def hear(self, content) -> None:
+    def hear(self, content):
         self.heard.append(content)
 
 

@@ -1,7 +1,5 @@
 """The pad in a page without a kernel: real keys, buttons and touches drive its robot as the engine would."""
 
-from __future__ import annotations
-
 import itertools
 import json
 import shutil
@@ -47,7 +45,7 @@ def simulated(pose=(0.0, 0.0, 0.0), world=HALL):
     return graph, Simulator(graph.node("simulator"), world=world)
 
 
-def document(html: str, *, theme: str = "light", root: str | None = None) -> str:
+def document(html, *, theme="light", root=None):
     """A page with the pad between a link before it and one after it, and something to scroll to."""
     content_root = "" if root is None else f' data-content_root="{root}"'
     return (
@@ -80,7 +78,7 @@ def site(tmp_path_factory):
 class Pad:
     """A page with a pad, on a clock that the test sets."""
 
-    def __init__(self, page, address: str) -> None:
+    def __init__(self, page, address):
         self.page = page
         page.clock.install(time=0)
         page.goto(address)
@@ -88,33 +86,33 @@ class Pad:
         self.stage.wait_for()
         page.clock.pause_at(60_000)
 
-    def run(self, seconds: float) -> None:
+    def run(self, seconds):
         self.page.clock.run_for(round(seconds * 1000))
 
-    def keys(self, keys: str) -> None:
+    def keys(self, keys):
         for key in keys:
             self.page.keyboard.press(key)
 
     @property
-    def mood(self) -> str:
+    def mood(self):
         return self.page.locator(".rp-pill").get_attribute("data-mood")
 
     @property
-    def note(self) -> str:
+    def note(self):
         return self.page.locator(".rp-pill").inner_text()
 
     @property
-    def message(self) -> str:
+    def message(self):
         """The last one: as in a terminal, the newest is at the bottom."""
         return self.page.locator(".rp-log").first.locator("pre, p").last.text_content()
 
     @property
-    def pose(self) -> tuple[float, ...]:
+    def pose(self):
         text = self.page.locator(".rp-readings .rp-value").first.inner_text()
         x, y, theta = (part.strip(" xym°") for part in text.split(","))
         return float(x), float(y), float(theta)
 
-    def focused(self) -> str:
+    def focused(self):
         return self.page.evaluate(
             "(({id, dataset, className, tagName}) => id || dataset.key || className || tagName)(document.activeElement)"
         )
@@ -125,7 +123,7 @@ def show(chromium, watch, site):
     """Open a page of the site; in the end it has to have said, raised and fetched nothing."""
     pages = []
 
-    def open_page(name: str, **options) -> Pad:
+    def open_page(name, **options):
         options = {"viewport": {"width": 900, "height": 1000}} | options
         context = chromium.new_context(**options)
         page = context.new_page()
@@ -593,7 +591,7 @@ def test_on_a_phone_fingers_drive(show, name, shared_tmp):
     assert pad.mood == "ready"
 
 
-def luminance(colour: str) -> float:
+def luminance(colour):
     parts = [int(part) / 255 for part in colour[colour.index("(") + 1 : -1].split(",")[:3]]
     r, g, b = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in parts)
     return 0.2126 * r + 0.7152 * g + 0.0722 * b
@@ -607,7 +605,7 @@ def test_the_pad_has_the_theme_of_its_page(show, name, shared_tmp):
     pad.run(6.0)
     pad.page.screenshot(path=shared_tmp / f"pad_{name}.png")
 
-    def colours(selector: str) -> tuple[float, float]:
+    def colours(selector):
         text, ground = pad.page.evaluate(
             """(selector) => {
               const paint = (element) => {

@@ -1,7 +1,5 @@
 """The teleoperation pad in a real JupyterLab: real keys in Chromium drive a robot on a live graph in a real kernel."""
 
-from __future__ import annotations
-
 import re
 
 import pytest
@@ -55,23 +53,23 @@ COUNT = """async (section) => {
 class Lab:
     """JupyterLab in a page, with the notebook open and its kernel idle."""
 
-    def __init__(self, page, address: str, cells: list[str]) -> None:
+    def __init__(self, page, address, cells):
         self.page = page
         page.goto(address)
         self.cells = page.locator(".jp-Notebook .jp-CodeCell")
         self.cells.nth(len(cells) - 1).wait_for()
         page.locator("#jp-main-statusbar", has_text="| Idle").wait_for()
 
-    def run(self, number: int) -> None:
+    def run(self, number):
         cell = self.cells.nth(number)
         cell.locator(".jp-InputArea-editor").click()
         self.page.keyboard.press("Control+Enter")
         cell.locator(".jp-InputPrompt", has_text=re.compile(r"\[[*\d]+\]")).first.wait_for()
 
-    def says(self, number: int, text: str) -> None:
+    def says(self, number, text):
         self.cells.nth(number).locator(".jp-OutputArea-output", has_text=text).first.wait_for()
 
-    def mood(self, mood: str) -> None:
+    def mood(self, mood):
         self.page.locator(f".rp-pill[data-mood='{mood}']").wait_for()
 
 

@@ -1,7 +1,5 @@
 """A robot in three dimensions under the reader's keys, in a page without a kernel, drawn in software."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -1,7 +1,5 @@
 """The turtle of a static page: real keys drive it as the node's, and its messages are shown as they are sent."""
 
-from __future__ import annotations
-
 import math
 import shutil
 import time
@@ -92,7 +90,7 @@ def test_the_motion_is_that_of_the_node(pad, made):
     assert [row[4:] for row in strokes[:3]] == [row[4:] for row in frame.state()["strokes"][:3]]
 
 
-def poses(pad) -> dict[str, float]:
+def poses(pad):
     rows = pad.page.locator(".rp-poses").inner_text().splitlines()[:-1]
     return {name: float(value) for name, value in (row.split(": ") for row in rows)}
 
@@ -144,7 +142,7 @@ def test_a_page_on_loopback_drives_the_node_s_turtle(chromium, watch):
         graph._live = SimpleNamespace(running=True, stop=lambda: None)  # this test drives it
         pad = sim.pad()
 
-        def until(condition) -> None:
+        def until(condition):
             deadline = time.monotonic() + PATIENCE
             while not condition():
                 assert time.monotonic() < deadline, watcher.seen

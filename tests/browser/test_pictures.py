@@ -1,7 +1,5 @@
 """Pictures of worlds and runs in Chromium: they take the theme of their page, and leave other pictures alone."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -21,7 +19,7 @@ PAINTS = """(selector) => [...document.querySelectorAll(selector)].map((node) =>
 })"""
 
 
-def rgb(colour: str) -> str:
+def rgb(colour):
     return f"rgb({', '.join(str(int(colour[i : i + 2], 16)) for i in (1, 3, 5))})"
 
 
@@ -30,7 +28,7 @@ def show(tabs):
     """Open pictures in a page of a theme; closing it asserts that the browser had nothing to say."""
     with tabs.open({"width": 800, "height": 900}) as (page, _):
 
-        def show(theme: str, *views):
+        def show(theme, *views):
             figures = "".join(view.html for view in views)
             page.set_content(
                 f'<!DOCTYPE html><html data-theme="{theme}"><head><style>{SHEET}</style></head>'

@@ -1,7 +1,5 @@
 """The replay player in a real browser, from file://: alone, and in a page deep in a book."""
 
-from __future__ import annotations
-
 import itertools
 import math
 import re
@@ -104,16 +102,16 @@ def opened(tabs):
         yield open_page
 
 
-def time_of(page) -> float:
+def time_of(page):
     return float(page.locator(".rosmini-replay").first.get_attribute("data-time"))
 
 
-def painted(page) -> None:
+def painted(page):
     """Wait until what was asked for is on the canvas."""
     page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
 
-def scrub(page, time) -> None:
+def scrub(page, time):
     page.locator(".rosmini-replay input[type=range]").first.evaluate(
         """(slider, time) => { slider.value = time;
         for (const name of ["input", "change"]) slider.dispatchEvent(new Event(name, {bubbles: true})); }""",
@@ -122,12 +120,12 @@ def scrub(page, time) -> None:
     painted(page)
 
 
-def reading(page, name) -> list[float]:
+def reading(page, name):
     text = page.locator(f"[data-read={name}]").first.inner_text().replace("\N{MINUS SIGN}", "-")
     return [float(number) for number in re.findall(r"-?\d+\.\d+", text)]
 
 
-def count(page, name, palette=style.LIGHT) -> int:
+def count(page, name, palette=style.LIGHT):
     colour = [int(palette[name][i : i + 2], 16) for i in (1, 3, 5)]
     canvas = page.locator(".rosmini-replay canvas").first.element_handle()
     return page.evaluate(COUNT, [canvas, colour])

@@ -1,7 +1,5 @@
 """Layers, zoom and runs side by side in a real browser."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -30,7 +28,7 @@ SPY = """() => {
 }"""
 
 
-def run(name: str) -> Run:
+def run(name):
     """Ten seconds: a map that grows, a stroke, a plan, a laser, and a robot that drives along x."""
     times = np.linspace(0.0, 10.0, 21)
     first = np.full((40, 60), 255, dtype=np.uint8)
@@ -73,7 +71,7 @@ def page(chromium, tmp_path_factory):
     )
     context = chromium.new_context(viewport={"width": 900, "height": 800})
     page = context.new_page()
-    errors: list[str] = []
+    errors = []
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.goto((folder / "page.html").as_uri())
     page.wait_for_function("document.querySelectorAll('.rosmini-replay[data-state=paused]').length === 2")
@@ -83,11 +81,11 @@ def page(chromium, tmp_path_factory):
     assert errors == []
 
 
-def painted(page) -> None:
+def painted(page):
     page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
 
-def scrub(page, time: float, which: int = 0) -> None:
+def scrub(page, time, which=0):
     page.locator(".rosmini-replay input[type=range]").nth(which).evaluate(
         """(slider, time) => { slider.value = time;
         for (const name of ["input", "change"]) slider.dispatchEvent(new Event(name, {bubbles: true})); }""",
@@ -96,13 +94,13 @@ def scrub(page, time: float, which: int = 0) -> None:
     painted(page)
 
 
-def colour(page, x: float, y: float, canvas: int = 0) -> tuple[int, ...]:
+def colour(page, x, y, canvas=0):
     page.locator(".rosmini-replay canvas").nth(canvas).scroll_into_view_if_needed()
     painted(page)
     return tuple(page.evaluate(LOOK, [canvas, x, y]))
 
 
-def is_near(found, wanted) -> bool:
+def is_near(found, wanted):
     return all(abs(one - other) < 25 for one, other in zip(found, wanted, strict=True))
 
 
@@ -192,7 +190,7 @@ def test_two_runs_have_one_clock(page):
     assert both.locator("[role=status]").inner_text().startswith("6.2 s. before: robot 1.86, 0.00 m")
 
 
-def costs() -> Run:
+def costs():
     """Five seconds: a map with a wall, and a costmap that later has something beside it that a laser has seen."""
     walls = np.zeros((40, 60), dtype=np.uint8)
     walls[5] = 100
@@ -254,7 +252,7 @@ def test_a_place_says_what_it_costs_and_why(chromium, tmp_path):
     assert not said.is_visible()
     scrub(page, 1.0)
 
-    def ask(x: float, y: float) -> str:
+    def ask(x, y):
         at = page.evaluate(
             """([x, y]) => {
             const {view} = seen.get(document.querySelector(".rosmini-replay canvas"));

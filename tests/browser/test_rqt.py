@@ -1,7 +1,5 @@
 """Panels of rqt in a page: real clicks and keys, with the kernel's side in this process."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -37,18 +35,18 @@ BRIDGE = """(data) => {
 class Opened:
     """A page with a panel, and the graph behind it. Nothing passes between them but in `pump`."""
 
-    def __init__(self, page, panel) -> None:
+    def __init__(self, page, panel):
         self.page, self.panel, self.graph = page, panel, panel.graph
         self.wall = 100.0
         self.graph.live = lambda: setattr(self.graph, "_live", SimpleNamespace(running=True, stop=lambda: None))
         self.link = PanelLink(panel, clock=lambda: self.wall)
-        self.sent: list = []
+        self.sent = []
         self.link.widget.send = lambda content, buffers=None: self.sent.append(content)
         page.clock.install(time=0)
         page.evaluate(BRIDGE, self.link.widget.data)
         self.pump()
 
-    def pump(self, seconds: float = 0.25) -> None:
+    def pump(self, seconds=0.25):
         """Let the page's messages arrive, time go on, and the answers arrive."""
         for content in self.page.evaluate("outbox.splice(0)"):
             self.link.receive(self.link.widget, content, [])
@@ -59,24 +57,24 @@ class Opened:
         self.page.evaluate("deliver", messages)
         self.page.clock.run_for(round(1000 * seconds))
 
-    def control(self, key: str):
+    def control(self, key):
         return self.page.locator(f"[data-key='{key}']")
 
-    def press(self, key: str) -> None:
+    def press(self, key):
         self.control(key).click()
         self.pump()
 
-    def write(self, key: str, text: str) -> None:
+    def write(self, key, text):
         self.control(key).fill(text)
         self.control(key).press("Enter")
         self.pump()
 
-    def choose(self, key: str, value: str) -> None:
+    def choose(self, key, value):
         self.control(key).select_option(value)
         self.pump()
 
     @property
-    def note(self) -> str:
+    def note(self):
         return self.page.locator(".rq-pill").inner_text()
 
 
@@ -85,7 +83,7 @@ def show(chromium, watch, tmp_path):
     """Open a page with a panel; in the end it has to have said, raised and fetched nothing."""
     opened = []
 
-    def open_page(panel, *, theme: str = "light") -> Opened:
+    def open_page(panel, *, theme="light"):
         scripts = "".join(f'<script src="{(STATIC / name).as_uri()}"></script>' for name in SCRIPTS)
         page_file = Path(tmp_path, f"{len(opened)}.html")
         page_file.write_text(
@@ -226,7 +224,7 @@ def test_why_a_message_was_refused_is_seen_until_the_next_click(show, graph):
     opened = show(LoggerLevel(graph))
     alert = opened.page.get_by_role("alert")
 
-    def refuse() -> None:
+    def refuse():
         raise RosminiError("a live graph needs an event loop")
 
     start, opened.graph.live = opened.graph.live, refuse

@@ -1,7 +1,5 @@
 """Panels of rqt in a real JupyterLab: real keys in Chromium, a live graph in a real kernel."""
 
-from __future__ import annotations
-
 import re
 
 import pytest
@@ -34,26 +32,26 @@ _ = node.subscriber("/level", Float64, lambda message: heard.append(message.data
 class Lab:
     """JupyterLab in a page, with the notebook open and its kernel idle."""
 
-    def __init__(self, page, address: str) -> None:
+    def __init__(self, page, address):
         self.page = page
         page.goto(address)
         self.cells = page.locator(".jp-Notebook .jp-CodeCell")
         self.cells.nth(len(CELLS) - 1).wait_for()
         page.locator("#jp-main-statusbar", has_text="| Idle").wait_for()
 
-    def run(self, number: int) -> None:
+    def run(self, number):
         cell = self.cells.nth(number)
         cell.locator(".jp-InputArea-editor").click()
         self.page.keyboard.press("Control+Enter")
         cell.locator(".jp-InputPrompt", has_text=re.compile(r"\[[\d]+\]")).first.wait_for()
 
-    def says(self, number: int, text: str) -> None:
+    def says(self, number, text):
         self.cells.nth(number).locator(".jp-OutputArea-output", has_text=text).first.wait_for()
 
-    def control(self, number: int, key: str):
+    def control(self, number, key):
         return self.cells.nth(number).locator(f"[data-key='{key}']")
 
-    def write(self, number: int, key: str, text: str) -> None:
+    def write(self, number, key, text):
         self.control(number, key).fill(text)
         self.control(number, key).press("Enter")
 

@@ -1,7 +1,5 @@
 """RViz's window in a real page on loopback: a real mouse and real keys, without Jupyter, from above and in 3D."""
 
-from __future__ import annotations
-
 import time
 from types import SimpleNamespace
 
@@ -62,20 +60,20 @@ def window():
 class Hand:
     """A mouse and keys on the window's page, while the graph goes on."""
 
-    def __init__(self, window, page) -> None:
+    def __init__(self, window, page):
         self.window, self.graph, self.page = window, window.graph, page
         self.heard = {topic: [] for topic in HEARD}
         for topic, kind in HEARD.items():
             window.graph.node("listener", anonymous=True).subscriber(topic, kind, self.heard[topic].append)
 
-    def until(self, condition) -> None:
+    def until(self, condition):
         deadline = time.monotonic() + PATIENCE
         while not condition():
             assert time.monotonic() < deadline
             self.graph.run(0.05)
             self.page.wait_for_timeout(5)
 
-    def take(self, label) -> None:
+    def take(self, label):
         button = self.page.get_by_role("button", name=label)
         button.click()
         self.until(lambda: button.get_attribute("aria-pressed") == "true")
@@ -87,7 +85,7 @@ class Hand:
         width, height = self.window._size
         return box["x"] + pixel[0] / width * box["width"], box["y"] + pixel[1] / height * box["height"]
 
-    def drag(self, start, *ends) -> None:
+    def drag(self, start, *ends):
         said = self.window._said
         self.page.mouse.move(*self.at(*start))
         self.page.mouse.down()
@@ -106,7 +104,7 @@ class Hand:
 def use(chromium, webgl, watch, window):
     """Open the window in a browser, use it, and see that the page had nothing to complain of."""
 
-    def used(solid, act) -> None:
+    def used(solid, act):
         context = (webgl if solid else chromium).new_context(viewport={"width": 900, "height": 1200})
         page = context.new_page()
         watcher = watch(page)
@@ -122,7 +120,7 @@ def use(chromium, webgl, watch, window):
     return used
 
 
-def publishing(hand) -> None:
+def publishing(hand):
     """2D Nav Goal, 2D Pose Estimate and Publish Point."""
     hand.take("2D Nav Goal")
     hand.drag((2.0, 2.0), (2.0, 3.0))
@@ -142,7 +140,7 @@ def publishing(hand) -> None:
     assert hand.window.tools.current.label == "Interact"
 
 
-def looking(hand) -> None:
+def looking(hand):
     """Measure, Select, and Interact with a marker."""
     window = hand.window
     hand.take("Measure")
@@ -160,7 +158,7 @@ def looking(hand) -> None:
 
 
 def test_each_tool_is_used_with_the_mouse_from_above_and_a_display_with_the_keyboard(use, window):
-    def act(hand) -> None:
+    def act(hand):
         page = hand.page
         publishing(hand)
         looking(hand)
@@ -183,7 +181,7 @@ def test_each_tool_is_used_with_the_mouse_from_above_and_a_display_with_the_keyb
 
 
 def test_in_three_dimensions_the_mouse_turns_the_scene_or_uses_the_tool(use, window):
-    def act(hand) -> None:
+    def act(hand):
         page = hand.page
         page.get_by_label("View").first.select_option("Orbit (rviz)")
         hand.until(lambda: page.locator("iframe[data-ready]").count())

@@ -1,7 +1,5 @@
 """A stepped player in Chromium: sliders, keys, buttons, a narrow dark page, and paper."""
 
-from __future__ import annotations
-
 import itertools
 
 import pytest

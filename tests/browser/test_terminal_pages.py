@@ -1,7 +1,5 @@
 """The pages of programs in a terminal: a real mouse and real keys in Chromium act on the graph of another process."""
 
-from __future__ import annotations
-
 import os
 import re
 import sys
@@ -81,11 +79,11 @@ def terminals(tmp_path_factory):
     output = folder / "output"
     output.touch()
 
-    def said(pattern: str) -> str:
+    def said(pattern):
         """Wait until one of the programs has written it."""
-        found: list[re.Match[str]] = []
+        found = []
 
-        def there() -> bool:
+        def there():
             found.extend(re.finditer(pattern, output.read_text(encoding="utf-8")))
             return bool(found)
 
@@ -97,7 +95,7 @@ def terminals(tmp_path_factory):
 
     with ExitStack() as stack, output.open("ab") as file:
 
-        def run(*words: object) -> None:
+        def run(*words):
             stack.enter_context(start(words, env=env, stdout=file, stderr=file))
 
         run(sys.executable, "-c", LISTENER)
@@ -114,12 +112,12 @@ def visit(terminals, tabs):
     """Open the page of a program."""
     with ExitStack() as stack:
 
-        def opened(name: str):
+        def opened(name):
             url = terminals.url(name)
             page, watcher = stack.enter_context(tabs.open({"width": 900, "height": 1200}))
             page.goto(url)
 
-            def forget() -> None:
+            def forget():
                 watcher.end()
                 watcher.seen[:] = [each for each in watcher.seen if not each.startswith(f"request: {url}")]
 
@@ -129,7 +127,7 @@ def visit(terminals, tabs):
         yield opened
 
 
-def drag(page, thing) -> None:
+def drag(page, thing):
     """Press the mouse in the middle of something, and release it 40 px to the right and 40 px above."""
     boxes = (thing.bounding_box() for _ in range(1000))  # none while the page replaces the picture
     box = next(box for box in boxes if box)
@@ -140,7 +138,7 @@ def drag(page, thing) -> None:
     page.mouse.up()
 
 
-def set_goal(page) -> None:
+def set_goal(page):
     """Take the tool 2D Nav Goal, and drag an arrow in the picture."""
     picture = page.locator("[data-points] > svg")
     picture.wait_for()

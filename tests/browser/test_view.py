@@ -1,7 +1,5 @@
 """The view of a simulation in a page: real pointer and key events, with the kernel's side in this process."""
 
-from __future__ import annotations
-
 import base64
 import math
 from pathlib import Path
@@ -12,7 +10,6 @@ import pytest
 from rosmini import Graph, rosrun
 from rosmini.sim.simulator import Simulator
 from rosmini.viz.embed import STATIC
-from rosmini.viz.live.simulation_view import SimulationView
 from rosmini.viz.live.view_link import SCRIPTS, ViewLink
 
 from ..processes import wait_until
@@ -38,14 +35,14 @@ BRIDGE = """(data) => {
 }"""
 
 
-def text_of(data: bytes) -> str:
+def text_of(data):
     return base64.b64encode(data).decode()
 
 
 class Viewed:
     """A page with a view, and the simulation behind it. Nothing passes between them but in `pump`."""
 
-    def __init__(self, page, view: SimulationView, *, live: bool = True) -> None:
+    def __init__(self, page, view, *, live=True):
         self.page, self.view = page, view
         self.graph = view.watch.node.graph
         self.wall = 100.0
@@ -53,7 +50,7 @@ class Viewed:
         if live:
             self.live()
         self.link = ViewLink(view, clock=lambda: self.wall)
-        self.sent: list = []
+        self.sent = []
         self.link.widget.send = lambda content, buffers=None: self.sent.append((content, buffers or []))
         page.clock.install(time=0)
         data = self.link.widget.data
@@ -61,7 +58,7 @@ class Viewed:
         self.pump()
         wait_until(self.is_fitted, "drawing as wide as the page leaves it")
 
-    def is_fitted(self) -> bool:
+    def is_fitted(self):
         """Whether the drawing has the width of its element: on a busy machine it learns that some frames later."""
         return bool(
             self.page.evaluate(
@@ -70,10 +67,10 @@ class Viewed:
             )
         )
 
-    def live(self) -> None:
+    def live(self):
         self.graph._live = SimpleNamespace(running=True, stop=lambda: None)
 
-    def pump(self, seconds: float = 0.05) -> None:
+    def pump(self, seconds=0.05):
         """Let the page's messages arrive, time go on, and the answers arrive."""
         for content in self.page.evaluate("outbox.splice(0)"):
             self.link.receive(self.link.widget, content, [])
@@ -84,21 +81,21 @@ class Viewed:
         self.page.evaluate("deliver", messages)
         self.page.clock.run_for(round(1000 * seconds))  # the page paints
 
-    def thing(self, name: str):
+    def thing(self, name):
         return self.page.locator(f".rv-thing[data-name='{name}']")
 
-    def middle(self, name: str) -> tuple[float, float]:
+    def middle(self, name):
         box = self.thing(name).bounding_box()
         return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
     @property
-    def scale(self) -> float:
+    def scale(self):
         """Pixels a metre: from two things whose places are known."""
         (a, b), c = self.view.names[:2], self.view.pose
         (ax, ay), (bx, by) = self.middle(a), self.middle(b)
         return math.dist((ax, ay), (bx, by)) / math.dist(c(a)[:2], c(b)[:2])
 
-    def drag(self, name: str, dx: float, dy: float) -> None:
+    def drag(self, name, dx, dy):
         """Press, move and release the mouse: so many metres."""
         x, y = self.middle(name)
         scale = self.scale
@@ -109,11 +106,11 @@ class Viewed:
         self.page.mouse.up()
 
     @property
-    def message(self) -> str:
+    def message(self):
         return self.page.locator(".rv-message").inner_text()
 
     @property
-    def clock(self) -> str:
+    def clock(self):
         return self.page.locator(".rv-clock").inner_text()
 
 
@@ -122,7 +119,7 @@ def show(chromium, watch, tmp_path):
     """Open a page with a view; in the end it has to have said, raised and fetched nothing."""
     opened = []
 
-    def open_page(view: SimulationView, *, theme: str = "light", live: bool = True, **options) -> Viewed:
+    def open_page(view, *, theme="light", live=True, **options):
         scripts = "".join(f'<script src="{(STATIC / name).as_uri()}"></script>' for name in SCRIPTS)
         page_file = Path(tmp_path, f"{len(opened)}.html")
         page_file.write_text(

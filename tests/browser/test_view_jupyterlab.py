@@ -1,7 +1,5 @@
 """The view of a simulation in a real JupyterLab: a mouse in Chromium drags robots on a live graph in a kernel."""
 
-from __future__ import annotations
-
 import math
 import re
 
@@ -33,24 +31,24 @@ def lab(open_in_lab, chromium):
     page.close()
 
 
-def run(page, number: int) -> None:
+def run(page, number):
     cell = page.locator(".jp-Notebook .jp-CodeCell").nth(number)
     cell.locator(".jp-InputArea-editor").click()
     page.keyboard.press("Control+Enter")
     cell.locator(".jp-InputPrompt", has_text=re.compile(r"\[[*\d]+\]")).first.wait_for()
 
 
-def says(page, number: int, text: str) -> None:
+def says(page, number, text):
     cell = page.locator(".jp-Notebook .jp-CodeCell").nth(number)
     cell.locator(".jp-OutputArea-output", has_text=text).first.wait_for()
 
 
-def middle(page, name: str) -> tuple[float, float]:
+def middle(page, name):
     box = page.locator(f".rv-thing[data-name='{name}']").bounding_box()
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
 
-def drag(page, name: str, dx: float, dy: float) -> None:
+def drag(page, name, dx, dy):
     """By so many metres."""
     (ax, ay), (bx, by) = middle(page, "robot_0"), middle(page, "crate_1")
     scale = math.dist((ax, ay), (bx, by)) / page.evaluate(

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 import pytest
-from jupyter_client import BlockingKernelClient, KernelManager
+from jupyter_client import KernelManager
 
 from ..processes import PATIENCE
 
@@ -30,29 +30,29 @@ class Cell:
 class Kernel:
     """A kernel with rosmini imported, and the cells that were sent to it."""
 
-    def __init__(self) -> None:
+    def __init__(self):
         self.manager = KernelManager(kernel_name="python3")
         # Colours would stand in the middle of what the tests look for.
         self.manager.start_kernel(extra_arguments=["--InteractiveShell.colors=nocolor"])
 
-    def connect(self) -> None:
-        self.cells: dict[str, Cell] = {}  # a new client numbers its messages from one again
-        self.client: BlockingKernelClient = self.manager.client()
+    def connect(self):
+        self.cells = {}  # a new client numbers its messages from one again
+        self.client = self.manager.client()
         self.client.start_channels()
         self.client.wait_for_ready(timeout=PATIENCE)
 
-    def restart(self) -> None:
+    def restart(self):
         self.client.stop_channels()
         self.manager.restart_kernel()
         self.connect()
 
-    def close(self) -> None:
+    def close(self):
         try:
             self.client.stop_channels()
         finally:
             self.manager.shutdown_kernel(now=True)
 
-    def send(self, code: str, subshell: str | None = None) -> Cell:
+    def send(self, code, subshell=None):
         """Send a cell and do not wait for it."""
         message = self.client.session.msg(
             "execute_request",
@@ -62,21 +62,19 @@ class Kernel:
         self.client.shell_channel.send(message)
         return self._cell(message["header"]["msg_id"])
 
-    def run(self, code: str, subshell: str | None = None) -> Cell:
+    def run(self, code, subshell=None):
         """Run a cell to its end."""
         cell = self.send(code, subshell)
         self.until(lambda: cell.idle and cell.reply is not None, f"the end of {code!r}, which wrote {cell}")
         return cell
 
-    def ok(self, code: str) -> Cell:
+    def ok(self, code):
         """Run a cell that must not raise."""
         cell = self.run(code)
         assert cell.errors == [], "\n".join(cell.tracebacks)
         return cell
 
-    def comm(
-        self, target: str, data: object = None, comm_id: str = "c", kind: str = "comm_msg", subshell: str | None = None
-    ) -> Cell:
+    def comm(self, target, data=None, comm_id="c", kind="comm_msg", subshell=None):
         """Send a widget's message."""
         content = {"comm_id": comm_id, "data": data or {}}
         if kind == "comm_open":
@@ -86,7 +84,7 @@ class Kernel:
         self.client.shell_channel.send(message)
         return self._cell(message["header"]["msg_id"])
 
-    def subshell(self) -> str:
+    def subshell(self):
         """Start a subshell, as JupyterLab does for widgets."""
         message = self.client.session.msg("create_subshell_request", {})
         self.client.control_channel.send(message)
@@ -94,20 +92,20 @@ class Kernel:
         assert reply["content"]["status"] == "ok", reply
         return reply["content"]["subshell_id"]
 
-    def interrupt(self) -> None:
+    def interrupt(self):
         self.manager.interrupt_kernel()
 
-    def until(self, condition, what: str) -> None:
+    def until(self, condition, what):
         """Take messages until `condition()` holds."""
         end = time.monotonic() + PATIENCE
         while not condition():
             assert time.monotonic() < end, f"waited in vain for {what}"
             self._take()
 
-    def _cell(self, message_id: str) -> Cell:
+    def _cell(self, message_id):
         return self.cells.setdefault(message_id, Cell(message_id))
 
-    def _take(self) -> None:
+    def _take(self):
         try:
             reply = self.client.get_shell_msg(timeout=0)
             self._cell(reply["parent_header"]["msg_id"]).reply = reply["content"]

@@ -1,7 +1,5 @@
 """Cells that block: where output and errors of callbacks appear, and what an interrupt and a restart leave behind."""
 
-from __future__ import annotations
-
 import os
 import signal
 

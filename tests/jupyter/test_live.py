@@ -1,8 +1,5 @@
 """A graph that goes on by itself while cells, widgets and other threads talk to it."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from types import SimpleNamespace
 
@@ -195,17 +192,17 @@ def test_a_cell_that_sleeps_by_itself_says_why_the_live_graph_stands_still(kerne
 class SlowLoop:
     """An event loop with a wall clock of its own, which only the callbacks of a graph make go on."""
 
-    def __init__(self) -> None:
+    def __init__(self):
         self.wall = 100.0
-        self._calls: list[tuple[float, Callable[[], object]]] = []
+        self._calls = []
 
-    def call_soon_threadsafe(self, callback) -> None:
+    def call_soon_threadsafe(self, callback):
         self.call_later(0.0, callback)
 
-    def call_later(self, delay, callback) -> None:
+    def call_later(self, delay, callback):
         self._calls.append((self.wall + delay, callback))
 
-    def run(self, seconds) -> None:
+    def run(self, seconds):
         end = self.wall + seconds
         while self.wall < end:
             when, callback = self._calls.pop(0)

@@ -1,11 +1,7 @@
 """``%load_ext rosmini`` in a real kernel."""
 
-from __future__ import annotations
 
-from typing import Any
-
-
-def test_commands_are_line_magics(shared_kernel: Any) -> None:
+def test_commands_are_line_magics(shared_kernel):
     shared_kernel.ok(
         "%load_ext rosmini\n%roscore\n"
         "from rosmini import default_graph\ngraph = default_graph()\n_ = graph.node('talker')"
@@ -26,7 +22,7 @@ def test_commands_are_line_magics(shared_kernel: Any) -> None:
     assert shared_kernel.ok("nodes").stdout == "/rosout\n/talker\n"
 
 
-def test_what_is_wrong_is_said_and_the_notebook_goes_on(shared_kernel: Any) -> None:
+def test_what_is_wrong_is_said_and_the_notebook_goes_on(shared_kernel):
     shared_kernel.ok("%load_ext rosmini\n%roscore")
     for line, said in (
         ("%rosnode lsit", "did you mean list"), ("%rostopic list | head", "runs no shell"),
@@ -39,11 +35,15 @@ def test_what_is_wrong_is_said_and_the_notebook_goes_on(shared_kernel: Any) -> N
     assert shared_kernel.ok("%rosnode list").stdout == "/rosout\n"
 
 
-def test_words_are_completed(shared_kernel: Any) -> None:
+def test_words_are_completed(shared_kernel):
     shared_kernel.ok(
         "%load_ext rosmini\n%roscore\nfrom rosmini import default_graph\n_ = default_graph().node('talker')"
     )
+    shared_kernel.ok("%%node talker.py\nimport rospy\nrospy.init_node('other')\nrospy.spin()")
     for line, word in (
+        ("%rosrun note", "notebook"),
+        ("%rosrun notebook ta", "talker.py"),
+        ("%rosrun rosmini_sim s", "simulator"),
         ("%rosnode inf", "info"),
         ("%rosnode info /tal", "/talker"),
         ("%rosmsg show std_msgs/Strin", "std_msgs/String"),
@@ -52,7 +52,7 @@ def test_words_are_completed(shared_kernel: Any) -> None:
         assert word in reply["content"]["matches"], reply
 
 
-def test_below_a_traceback_stands_what_roswtf_knows(shared_kernel: Any) -> None:
+def test_below_a_traceback_stands_what_roswtf_knows(shared_kernel):
     shared_kernel.ok("%load_ext rosmini\n%roscore\nfrom rosmini import default_graph, install\ninstall()\nimport rospy")
     shared_kernel.ok("from std_msgs.msg import String\n_ = default_graph().node('talker').publisher('chatter', String)")
     cell = shared_kernel.run("rospy.init_node('me')\nrospy.wait_for_message('/chater', String, timeout=2)")
@@ -61,9 +61,9 @@ def test_below_a_traceback_stands_what_roswtf_knows(shared_kernel: Any) -> None:
     assert shared_kernel.run("1 / 0").stdout == ""
 
 
-def test_a_cell_shows_what_is_being_compiled(new_kernel: Any) -> None:
-    new_kernel.ok("%load_ext rosmini")
-    cell = new_kernel.ok(
+def test_a_cell_shows_what_is_being_compiled(shared_kernel):
+    shared_kernel.ok("%load_ext rosmini")
+    cell = shared_kernel.ok(
         "from rosmini.core.geometry import machine_code\n"
         "with machine_code.show_progress('compiling the planner'):\n    pass"
     )

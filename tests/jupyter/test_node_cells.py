@@ -1,16 +1,6 @@
 """``%%node`` in a real kernel: where output appears, who types, and what an interrupt and a restart leave behind."""
 
-from __future__ import annotations
-
-import sys
 from pathlib import Path
-from typing import Any
-
-import nbformat
-
-from book.tools.notebooks import KERNELSPEC, LANGUAGE
-
-from ..processes import run
 
 TALKER = """\
 import rospy
@@ -26,14 +16,14 @@ while not rospy.is_shutdown():
 ASK = "%%node ask.py\nprint('hello', input('who? '))"
 
 
-def folder_of(kernel: Any) -> Path:
+def folder_of(kernel):
     cell = kernel.ok(
         "from rosmini.notebook.session import session_of\nprint(session_of(get_ipython()).package.workspace)"
     )
     return Path(cell.stdout.strip())
 
 
-def test_what_a_node_prints_appears_in_the_cell_in_which_time_passes(new_kernel: Any) -> None:
+def test_what_a_node_prints_appears_in_the_cell_in_which_time_passes(new_kernel):
     assert new_kernel.ok("%load_ext rosmini").stdout == ""
     assert new_kernel.ok("%roscore").stdout.startswith("ROS_MASTER_URI=")
     started = new_kernel.ok(f"%%node talker.py\n{TALKER}")
@@ -44,14 +34,14 @@ def test_what_a_node_prints_appears_in_the_cell_in_which_time_passes(new_kernel:
     assert new_kernel.ok("import rospy\nrospy.init_node('here')\nrospy.sleep(1)").stdout == "turn 3\n"
 
 
-def test_it_appears_in_a_terminal_cell_too(shared_kernel: Any) -> None:
+def test_it_appears_in_a_terminal_cell_too(shared_kernel):
     shared_kernel.ok("%load_ext rosmini\n%roscore")
     started = shared_kernel.ok(f"%%node talker.py\n{TALKER}")
     assert shared_kernel.ok("%%terminal\nsleep 2").stdout == "$ sleep 2\nturn 1\nturn 2\n"
     assert started.stdout == "turn 0\n"
 
 
-def test_an_interrupt_ends_the_cell_and_the_nodes_go_on(shared_kernel: Any) -> None:
+def test_an_interrupt_ends_the_cell_and_the_nodes_go_on(shared_kernel):
     shared_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
     shared_kernel.ok(f"%%node talker.py\n{TALKER}")
     waiting = shared_kernel.send("rosmini.wait(10_000_000)")
@@ -64,7 +54,7 @@ def test_an_interrupt_ends_the_cell_and_the_nodes_go_on(shared_kernel: Any) -> N
     assert shared_kernel.ok("%rosnode list").stdout == "/rosout\n/talker\n"
 
 
-def test_the_start_of_a_script_that_never_comes_back_can_be_interrupted(new_kernel: Any) -> None:
+def test_the_start_of_a_script_that_never_comes_back_can_be_interrupted(new_kernel):
     new_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
     # no loop of its own, in which others would get their turn; one line, since the interrupt comes at any moment
     endless = "print('up', flush=True); sum(1 for _ in iter(int, 1))"
@@ -79,13 +69,13 @@ def test_the_start_of_a_script_that_never_comes_back_can_be_interrupted(new_kern
     assert new_kernel.ok(f"%%node talker.py\n{TALKER}").stdout == "turn 0\n"
 
 
-def ask(kernel: Any, code: str) -> Any:
+def ask(kernel, code):
     """Send a cell of a reader who can type."""
     kernel.client.allow_stdin = True
     return kernel._cell(kernel.client.execute(code, allow_stdin=True))
 
 
-def test_the_reader_types_below_the_cell_in_which_time_passes(shared_kernel: Any) -> None:
+def test_the_reader_types_below_the_cell_in_which_time_passes(shared_kernel):
     shared_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
     cell = ask(shared_kernel, ASK)
     request = shared_kernel.client.get_stdin_msg(timeout=300)
@@ -105,7 +95,7 @@ def test_the_reader_types_below_the_cell_in_which_time_passes(shared_kernel: Any
     assert cell.stdout == "who? hello Bob\n"
 
 
-def test_an_interrupt_while_the_reader_types_ends_the_cell(shared_kernel: Any) -> None:
+def test_an_interrupt_while_the_reader_types_ends_the_cell(shared_kernel):
     shared_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
     cell = ask(shared_kernel, ASK)
     shared_kernel.client.get_stdin_msg(timeout=300)
@@ -119,13 +109,13 @@ def test_an_interrupt_while_the_reader_types_ends_the_cell(shared_kernel: Any) -
     assert "hello Ada" in cell.stdout
 
 
-def test_where_nobody_can_type_the_script_says_what_to_do(shared_kernel: Any) -> None:
+def test_where_nobody_can_type_the_script_says_what_to_do(shared_kernel):
     shared_kernel.ok("%load_ext rosmini\n%roscore")
     assert "add --stdin TEXT" in shared_kernel.ok(ASK).stderr
     assert shared_kernel.ok(ASK.replace("ask.py", "ask.py --stdin Ada")).stdout == "who? hello Ada\n"
 
 
-def test_a_restart_while_nodes_run_leaves_no_folder(new_kernel: Any) -> None:
+def test_a_restart_while_nodes_run_leaves_no_folder(new_kernel):
     new_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
     new_kernel.ok(f"%%node talker.py\n{TALKER}")
     folder = folder_of(new_kernel)
@@ -136,7 +126,7 @@ def test_a_restart_while_nodes_run_leaves_no_folder(new_kernel: Any) -> None:
     assert new_kernel.ok(f"%%node talker.py\n{TALKER}").stdout == "turn 0\n"
 
 
-def test_a_script_that_forks_is_one_script_here(new_kernel: Any) -> None:
+def test_a_script_that_forks_is_one_script_here(new_kernel):
     new_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
     forks = "import os, time\nchild = os.fork()\nif not child:\n    time.sleep(1)\nprint(os.waitpid(child, 0)[1])"
     assert new_kernel.ok(f"%%node forks.py\n{forks}").stdout == "0\n"
@@ -145,7 +135,7 @@ def test_a_script_that_forks_is_one_script_here(new_kernel: Any) -> None:
     assert new_kernel.ok("rosmini.wait(2)\nprint('on')").stdout == "on\n"
 
 
-def test_two_notebooks_have_nothing_in_common(new_kernel: Any, shared_kernel: Any) -> None:
+def test_two_notebooks_have_nothing_in_common(new_kernel, shared_kernel):
     for kernel in (new_kernel, shared_kernel):
         kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
     shared_kernel.ok(f"%%node talker.py\n{TALKER}")
@@ -168,7 +158,7 @@ rospy.spin()
 """
 
 
-def test_a_roscore_that_is_interrupted_begins_anew_nevertheless(shared_kernel: Any, tmp_path: Path) -> None:
+def test_a_roscore_that_is_interrupted_begins_anew_nevertheless(shared_kernel, tmp_path):
     shared_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
     begun = tmp_path / "begun"
     shared_kernel.ok(f"%%node hangs.py\n{HANGS.format(begun=str(begun))}")
@@ -180,7 +170,7 @@ def test_a_roscore_that_is_interrupted_begins_anew_nevertheless(shared_kernel: A
     assert shared_kernel.ok(f"%%node talker.py\n{TALKER}").stdout == "turn 0\n"
 
 
-def test_a_subshell_lets_time_pass_and_starts_nothing(shared_kernel: Any) -> None:
+def test_a_subshell_lets_time_pass_and_starts_nothing(shared_kernel):
     shared_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
     shared_kernel.ok(f"%%node talker.py\n{TALKER}")
     subshell = shared_kernel.subshell()
@@ -192,48 +182,7 @@ def test_a_subshell_lets_time_pass_and_starts_nothing(shared_kernel: Any) -> Non
     assert shared_kernel.ok("rosmini.wait(1)").stdout == "turn 2\n"
 
 
-def test_words_of_rosrun_are_completed(shared_kernel: Any) -> None:
-    shared_kernel.ok("%load_ext rosmini\n%roscore\n")
-    shared_kernel.ok(f"%%node talker.py\n{TALKER}")
-    for line, word in (
-        ("%rosrun note", "notebook"),
-        ("%rosrun notebook ta", "talker.py"),
-        ("%rosrun rosmini_sim s", "simulator"),
-    ):
-        reply = shared_kernel.client.complete(line, len(line), reply=True, timeout=300)
-        assert word in reply["content"]["matches"], reply
-
-
-def test_the_stored_form_is_the_same_in_every_run(tmp_path: Path, root: Path) -> None:
-    path = tmp_path / "chapter.ipynb"
-    notebook = nbformat.v4.new_notebook(metadata={"kernelspec": KERNELSPEC, "language_info": LANGUAGE})
-    codes = (
-        "%load_ext rosmini\n%roscore",
-        f"%%node talker.py\n{TALKER}",
-        ASK.replace("ask.py", "ask.py --stdin Ada"),
-        "import rosmini\nrosmini.wait(2)",
-        "%rosnode info /talker",
-        "%rosnode ping -c 2 /talker",
-        "%rospack find notebook",
-        "%%node bad.py\nimport rospy\n1 / 0",
-        "%rosrun rosmini_sim simulator",
-        "%rostopic echo -n 1 /odom",
-        "%rostopic hz /scan",
-    )
-    notebook.cells = [nbformat.v4.new_code_cell(code, id=f"c{at}") for at, code in enumerate(codes)]
-    nbformat.write(notebook, path)
-    run([sys.executable, "-m", "book.tools.notebooks", "execute", path], cwd=root, check=True)
-    stored = path.read_text(encoding="utf-8")
-    assert "Pid: 4242" in stored
-    assert "who? hello Ada" in stored
-    assert "~/catkin_ws/src/notebook" in stored
-    words = ("-m", "pytest", "-q", "-n0", "--nbval", "--nbval-current-env", "-p", "no:cacheprovider", "--rootdir", root)
-    done = run([sys.executable, *words, "-c", root / "pyproject.toml", path], cwd=root)
-    assert done.returncode == 0, done.stdout
-    assert f"{len(codes)} passed" in done.stdout
-
-
-def test_a_script_with_asyncio_is_told_why_it_cannot_run_here(shared_kernel: Any) -> None:
+def test_a_script_with_asyncio_is_told_why_it_cannot_run_here(shared_kernel):
     shared_kernel.ok("%load_ext rosmini\n%roscore")
     cell = "%%node a.py\nimport asyncio\nasync def main():\n    await asyncio.sleep(0.1)\nasyncio.run(main())\n"
     ended = shared_kernel.ok(cell)

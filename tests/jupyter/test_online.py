@@ -1,7 +1,5 @@
 """A notebook's graph goes online in a real kernel, and others, in another process, talk to its nodes between cells."""
 
-from __future__ import annotations
-
 import pytest
 
 from rosmini.core.graph import Graph

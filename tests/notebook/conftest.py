@@ -1,16 +1,12 @@
 """A notebook without a kernel: a shell of IPython in this process, and what its cells print."""
 
-from __future__ import annotations
-
 import re
-from collections.abc import Iterator
-from typing import Any
 
 import pytest
 from IPython.core.interactiveshell import InteractiveShell
 
 from rosmini.notebook import extension
-from rosmini.notebook.session import Session, session_of
+from rosmini.notebook.session import session_of
 
 NOISE = re.compile(r"\x1b\[[0-9;]*m|Out\[\d+\]: ")
 """Colours, and the label that a plain shell writes before a result that shows nothing."""
@@ -19,28 +15,28 @@ NOISE = re.compile(r"\x1b\[[0-9;]*m|Out\[\d+\]: ")
 class Notebook:
     """Cells of a shell, and what they print."""
 
-    def __init__(self, shell: Any, capsys: pytest.CaptureFixture[str]) -> None:
+    def __init__(self, shell, capsys):
         self.shell = shell
         self._capsys = capsys
 
     @property
-    def session(self) -> Session:
+    def session(self):
         return session_of(self.shell)
 
-    def run(self, cell: str) -> tuple[BaseException | None, str]:
+    def run(self, cell):
         """Run a cell; return what it raised, and what it wrote to both streams."""
         self._capsys.readouterr()
         result = self.shell.run_cell(cell, store_history=True)
         out, err = self._capsys.readouterr()
         return result.error_before_exec or result.error_in_exec, NOISE.sub("", out + err)
 
-    def ok(self, cell: str) -> str:
+    def ok(self, cell):
         """Run a cell that must not raise; return what it wrote."""
         error, written = self.run(cell)
         assert error is None, written
         return written
 
-    def fails(self, cell: str) -> str:
+    def fails(self, cell):
         """Run a cell that must raise; return what it wrote, the error included."""
         error, written = self.run(cell)
         assert error is not None, written
@@ -48,7 +44,7 @@ class Notebook:
 
 
 @pytest.fixture
-def shell() -> Iterator[Any]:
+def shell():
     InteractiveShell.clear_instance()
     made = InteractiveShell.instance()
     yield made
@@ -57,7 +53,7 @@ def shell() -> Iterator[Any]:
 
 
 @pytest.fixture
-def notebook(shell: Any, capsys: pytest.CaptureFixture[str]) -> Notebook:
+def notebook(shell, capsys):
     """A notebook after its first line."""
     made = Notebook(shell, capsys)
     made.ok("%load_ext rosmini")

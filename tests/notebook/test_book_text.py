@@ -1,17 +1,11 @@
 """What differs from machine to machine has one form in the book."""
 
-from __future__ import annotations
-
-import pytest
-
 from rosmini.core.packages.folders import assets_dir
 from rosmini.notebook.book_text import book_text
 from rosmini.notebook.places import Places
 
-from .conftest import Notebook
 
-
-def test_paths_and_numbers(notebook: Notebook) -> None:
+def test_paths_and_numbers(notebook):
     home = notebook.session.package.workspace.parent
     text = f"{home}/catkin_ws/src/notebook {assets_dir()}/ros/tf Pid: 17 pid [18] 17"
     assert book_text(text, Places(home)) == (
@@ -19,7 +13,7 @@ def test_paths_and_numbers(notebook: Notebook) -> None:
     )
 
 
-def test_cells_print_the_books_form_where_the_book_is_made(notebook: Notebook, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_cells_print_the_books_form_where_the_book_is_made(notebook, monkeypatch):
     workspace = str(notebook.session.package.workspace)
     bad = "%%node bad.py\n1 / 0"
     assert workspace in notebook.ok(bad)
@@ -31,7 +25,7 @@ def test_cells_print_the_books_form_where_the_book_is_made(notebook: Notebook, m
     assert "Pid: 4242" in notebook.ok("%rosnode info /rosout")
 
 
-def test_so_do_the_errors_of_cells(notebook: Notebook, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_so_do_the_errors_of_cells(notebook, monkeypatch):
     notebook.session.package.write("launch", "bad.launch", "<launch>\n<node/>\n</launch>")
     folder = str(notebook.session.package.folder)
     lines = ("%rosrun notebook nope.py", "%roslaunch notebook bad.launch", "%rosrun nope nope")

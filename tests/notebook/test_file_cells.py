@@ -1,9 +1,5 @@
 """Cells that are messages, services, actions and launch files."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import pytest
 
 TALKER = """%%node talker.py
@@ -16,7 +12,7 @@ rospy.spin()
 """
 
 
-def test_a_message_type_of_ones_own(notebook: Any) -> None:
+def test_a_message_type_of_ones_own(notebook):
     assert notebook.ok("%%msg Num\nint64 num\n") == ""
     assert notebook.ok("from notebook.msg import Num\nprint(Num(num=3))") == "num: 3\n"
     assert notebook.ok("%rosmsg show notebook/Num") == "int64 num\n\n"
@@ -24,7 +20,7 @@ def test_a_message_type_of_ones_own(notebook: Any) -> None:
     assert notebook.ok("%rostopic echo -n 1 /numbers").endswith("num: 7\n---\n")
 
 
-def test_services_and_actions(notebook: Any) -> None:
+def test_services_and_actions(notebook):
     notebook.ok("%%srv Add.srv\nint64 a\nint64 b\n---\nint64 sum\n")
     notebook.ok("%%action Dock\nstring station\n---\nbool done\n---\nfloat32 distance\n")
     written = notebook.ok(
@@ -34,7 +30,7 @@ def test_services_and_actions(notebook: Any) -> None:
     assert written == 'sum: 4 station: "a"\n'
 
 
-def test_another_definition_is_told_and_taken(notebook: Any) -> None:
+def test_another_definition_is_told_and_taken(notebook):
     notebook.ok("%%msg Num\nint64 num\n")
     notebook.ok("%%msg Pair\nNum a\nNum b\n")
     notebook.ok("from notebook.msg import Num, Pair\nold = Pair(Num(1), Num(2))")
@@ -59,19 +55,19 @@ def test_another_definition_is_told_and_taken(notebook: Any) -> None:
         ("%%launch a.xml\n<launch/>", "call it a.launch"),
     ],
 )
-def test_what_is_wrong_is_told_with_the_line_of_the_cell(notebook: Any, cell: str, what: str) -> None:
+def test_what_is_wrong_is_told_with_the_line_of_the_cell(notebook, cell, what):
     assert what in notebook.fails(cell)
     folder = notebook.session.package.folder
     assert not [path for kind in ("msg", "srv", "launch") for path in (folder / kind).glob("*")]
 
 
-def test_a_wrong_definition_leaves_the_old_one(notebook: Any) -> None:
+def test_a_wrong_definition_leaves_the_old_one(notebook):
     notebook.ok("%%msg Num\nint64 num\n")
     notebook.fails("%%msg Num\nint65 num\n")
     assert notebook.ok("from notebook.msg import Num\nprint(Num(1))") == "num: 1\n"
 
 
-def test_a_launch_file(notebook: Any) -> None:
+def test_a_launch_file(notebook):
     notebook.ok("%%msg Num\nint64 num\n")
     notebook.ok(TALKER)
     text = '<launch>\n  <arg name="who"/>\n  <node pkg="notebook" type="talker.py" name="$(arg who)"/>\n</launch>\n'
@@ -81,7 +77,7 @@ def test_a_launch_file(notebook: Any) -> None:
     assert "/anna" in notebook.ok("%rosnode list")
 
 
-def test_what_a_launch_file_lacks_is_told(notebook: Any) -> None:
+def test_what_a_launch_file_lacks_is_told(notebook):
     written = notebook.ok('%%launch a.launch\n<launch>\n  <include file="$(find nowhere)/x.launch"/>\n</launch>')
     assert written.startswith("WARNING: a.launch:3: ")
     assert "nowhere" in written

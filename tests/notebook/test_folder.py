@@ -1,11 +1,7 @@
 """A temporary folder is gone after its process, also where that was killed."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
-
-import pytest
 
 from rosmini.notebook.folder import TemporaryFolder
 
@@ -20,7 +16,7 @@ sys.stdin.read()
 """
 
 
-def test_a_folder_is_made_and_removed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_folder_is_made_and_removed(tmp_path, monkeypatch):
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     folder, other = TemporaryFolder(), TemporaryFolder()
     (folder.path / "below").mkdir()
@@ -32,7 +28,7 @@ def test_a_folder_is_made_and_removed(tmp_path: Path, monkeypatch: pytest.Monkey
     other.remove()
 
 
-def test_what_a_killed_process_left_is_removed_by_the_next(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_a_killed_process_left_is_removed_by_the_next(tmp_path, monkeypatch):
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     (tmp_path / "rosmini-of-somebody-else").mkdir()
     with start(

@@ -1,10 +1,7 @@
 """Paths as the book shows them, and back."""
 
-from __future__ import annotations
-
 import io
 import os
-from pathlib import Path
 
 import pytest
 
@@ -14,17 +11,17 @@ from rosmini.notebook.places import OutsideHome, Places, ShownStream
 
 
 @pytest.fixture
-def places(tmp_path: Path) -> Places:
+def places(tmp_path):
     return Places(tmp_path)
 
 
-def test_paths_are_shown_as_on_a_robot(places: Places) -> None:
+def test_paths_are_shown_as_on_a_robot(places):
     share = PackageIndex().path("turtlebot3_description")
     text = f'{places.home}: {places.home / "ws" / "src"}, "{share}"; {places.home}-other'
     assert places.shown(text) == (f'~: ~/ws/src, "/opt/ros/noetic/share/turtlebot3_description"; {places.home}-other')
 
 
-def test_a_stream_can_be_dropped_after_what_is_behind_it(places: Places) -> None:
+def test_a_stream_can_be_dropped_after_what_is_behind_it(places):
     """Python 3.13 and later complain of what a stream's end raises."""
     target = io.StringIO()
     stream = ShownStream(target, places)
@@ -32,7 +29,7 @@ def test_a_stream_can_be_dropped_after_what_is_behind_it(places: Places) -> None
     stream.close()
 
 
-def test_folders_that_are_one_on_a_robot_are_listed_once(places: Places) -> None:
+def test_folders_that_are_one_on_a_robot_are_listed_once(places):
     with pytest.raises(UnknownPackage) as caught:
         PackageIndex().path("no_such_package")
     shown = places.shown(str(caught.value))
@@ -40,7 +37,7 @@ def test_folders_that_are_one_on_a_robot_are_listed_once(places: Places) -> None
     assert shown.startswith("there is no package 'no_such_package'")
 
 
-def test_and_back(places: Places) -> None:
+def test_and_back(places):
     home = str(places.home)
     assert places.real("~/a/b") == home + "/a/b"
     assert places.real("_map:=~/map.yaml") == f"_map:={home}/map.yaml"
@@ -53,7 +50,7 @@ def test_and_back(places: Places) -> None:
         assert places.real(same) == same
 
 
-def test_nothing_outside_is_reached(places: Places) -> None:
+def test_nothing_outside_is_reached(places):
     inside = places.home / "ws"
     inside.mkdir()
     assert places.find("..", inside) == places.home
@@ -67,13 +64,13 @@ def test_nothing_outside_is_reached(places: Places) -> None:
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a link needs permission there")
-def test_a_link_that_leads_out_is_not_followed(places: Places) -> None:
+def test_a_link_that_leads_out_is_not_followed(places):
     (places.home / "out").symlink_to("/etc")
     with pytest.raises(OutsideHome):
         places.find("out/passwd", places.home)
 
 
-def test_a_stream_shows_them(places: Places, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_stream_shows_them(places, capsys):
     import sys
 
     stream = ShownStream(sys.stdout, places)

@@ -1,10 +1,5 @@
 """`%save_package`: what it writes, and what it refuses."""
 
-from __future__ import annotations
-
-from pathlib import Path
-from typing import Any
-
 from rosmini.core.packages import read_package
 from rosmini.notebook.saving import imports
 from rosmini.ros.catkin import Workspace, make
@@ -18,7 +13,7 @@ from tf.transformations import euler_from_quaternion
 """
 
 
-def write(notebook: Any) -> None:
+def write(notebook):
     notebook.ok("%%msg Num\nstd_msgs/Header header\nint64 num\n")
     notebook.ok("%%action Dock\nsensor_msgs/LaserScan scan\n---\n---\n")
     notebook.ok(NODE)
@@ -28,7 +23,7 @@ def write(notebook: Any) -> None:
     )
 
 
-def test_a_package_that_builds(notebook: Any, tmp_path: Path) -> None:
+def test_a_package_that_builds(notebook, tmp_path):
     write(notebook)
     source = tmp_path / "src"
     source.mkdir()
@@ -45,7 +40,7 @@ def test_a_package_that_builds(notebook: Any, tmp_path: Path) -> None:
     assert (report.failed, [each for each in report.findings if each.is_error]) == ([], [])
 
 
-def test_it_is_written_again_and_another_package_is_left_alone(notebook: Any, tmp_path: Path) -> None:
+def test_it_is_written_again_and_another_package_is_left_alone(notebook, tmp_path):
     write(notebook)
     notebook.ok(f"%save_package {tmp_path}")
     (tmp_path / "notebook" / "scripts" / "old.py").touch()
@@ -58,7 +53,7 @@ def test_it_is_written_again_and_another_package_is_left_alone(notebook: Any, tm
     assert [path.name for path in own.iterdir()] == ["kept"]
 
 
-def test_what_is_refused(notebook: Any, tmp_path: Path) -> None:
+def test_what_is_refused(notebook, tmp_path):
     assert "usage: %save_package FOLDER" in notebook.fails("%save_package")
     assert "no cell has written a file yet" in notebook.fails(f"%save_package {tmp_path}")
     write(notebook)
@@ -66,6 +61,6 @@ def test_what_is_refused(notebook: Any, tmp_path: Path) -> None:
     assert "choose a writable folder" in notebook.fails(f"%save_package {tmp_path}/file")
 
 
-def test_imports() -> None:
+def test_imports():
     assert imports("import os, rospy as r\nfrom tf.x import y\nfrom . import z\nimport a.b.c") == {"rospy", "tf", "a"}
     assert imports("this is no Python") == set()

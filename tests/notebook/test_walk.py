@@ -1,9 +1,5 @@
 """The walk of the first hours in the cells of a notebook: a workspace, a package, two scripts, and both running."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import pytest
 
 PACKAGE = """%%terminal --new
@@ -48,13 +44,13 @@ rosnode kill /talker > killed.txt && cat killed.txt
 """
 
 
-def walk(notebook: Any) -> str:
+def walk(notebook):
     written = [notebook.ok(each) for each in (PACKAGE, TALKER, RUN)]
     written.append(notebook.ok("%rosrun example_pkg talker.py\nimport rosmini\nrosmini.wait(1.2)"))
     return "".join(written)
 
 
-def test_the_walk_and_run_all_twice(notebook: Any) -> None:
+def test_the_walk_and_run_all_twice(notebook):
     first = walk(notebook)
     assert "1 built, 0 up to date, 0 failed" in first
     assert first.count("heard hello") >= 3
@@ -74,7 +70,7 @@ exit(gen.generate(PACKAGE, "drive", "Drive"))
 
 
 @pytest.mark.parametrize("messages", [False, True])
-def test_a_cell_imports_what_a_cfg_file_describes_as_it_was_built_last(notebook: Any, messages: bool) -> None:
+def test_a_cell_imports_what_a_cfg_file_describes_as_it_was_built_last(notebook, messages):
     """`messages`: the package has a message, too, whose module is made in another way."""
     add = "mkdir msg\necho 'int32 num' > msg/Num.msg\n" if messages else ""
     cmake = "add_message_files(FILES Num.msg)\ngenerate_messages()\n" if messages else ""

@@ -7,7 +7,6 @@ types in a cell instead, where that can be; lines that wait for something name i
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import NamedTuple
 
 NO_ROS = "no ROS is installed, so nothing is there to be sourced"
@@ -154,7 +153,7 @@ a magic; and what the cell prints. ! marks a slip of the report."""
 WAITS = {"source /opt/ros/": NO_ROS, "wget ": NETWORK}
 
 
-def _lines() -> Iterator[Line]:
+def _lines():
     chapter = ""
     for row in TABLE.strip().splitlines():
         if row.startswith("# "):

@@ -1,12 +1,6 @@
 """The report's command lines typed into cells."""
 
-from __future__ import annotations
-
 import re
-from pathlib import Path
-from typing import Any
-
-import pytest
 
 from .command_lines import LINES
 
@@ -25,7 +19,7 @@ while not rospy.is_shutdown():
 """
 
 
-def test_the_lines_of_the_report_work_in_cells(notebook: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_lines_of_the_report_work_in_cells(notebook, tmp_path, monkeypatch):
     """Each prints what it should, or its error names the right form; in the order of the report, in one notebook."""
     (tmp_path / "example_ws" / "src").mkdir(parents=True)
     monkeypatch.chdir(tmp_path)

@@ -3,13 +3,9 @@
 Each works, or its error names the right form: the report's slips (`roscpp info`, `rosmmsg`, `roslaunch` for `rosrun`).
 """
 
-from __future__ import annotations
-
 import os
 import re
 import sys
-from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 
@@ -37,7 +33,7 @@ while not rospy.is_shutdown():
 
 
 @pytest.fixture(scope="module")
-def shell(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]]:
+def shell(tmp_path_factory):
     """The environment of a terminal in which a Master and a talker run."""
     home = tmp_path_factory.mktemp("report")
     scripts = home / "src" / "example_pkg" / "scripts"
@@ -115,17 +111,17 @@ NAMES_THE_RIGHT_FORM = [
 
 
 @pytest.mark.parametrize(("line", "pattern"), WORKS, ids=[line for line, _ in WORKS])
-def test_a_command_line_of_the_report_works(shell: dict[str, str], line: str, pattern: str) -> None:
+def test_a_command_line_of_the_report_works(shell, line, pattern):
     done = run([*ROSMINI, *line.split()], env=shell)
     assert re.search(pattern, done.stdout, re.MULTILINE), done.stdout + done.stderr
     assert done.returncode == 0
 
 
 @pytest.mark.parametrize(("line", "pattern"), MEASURES, ids=[line for line, _ in MEASURES])
-def test_a_measurement_of_the_report_says_what_the_talker_does(shell: dict[str, str], line: str, pattern: str) -> None:
+def test_a_measurement_of_the_report_says_what_the_talker_does(shell, line, pattern):
     """A busy machine may leave the talker or the tool no time, so it is asked until both had their share."""
 
-    def says() -> bool:
+    def says():
         done = run([*ROSMINI, *line.split()], env=shell)
         assert done.returncode == 0, done.stdout + done.stderr
         return re.search(pattern, done.stdout, re.MULTILINE) is not None
@@ -134,20 +130,20 @@ def test_a_measurement_of_the_report_says_what_the_talker_does(shell: dict[str, 
 
 
 @pytest.mark.parametrize(("line", "text"), NAMES_THE_RIGHT_FORM, ids=[line for line, _ in NAMES_THE_RIGHT_FORM])
-def test_a_slip_of_the_report_is_answered_with_the_right_form(shell: dict[str, str], line: str, text: str) -> None:
+def test_a_slip_of_the_report_is_answered_with_the_right_form(shell, line, text):
     done = run([*ROSMINI, *line.split()], env=shell)
     assert done.returncode != 0
     assert text in done.stderr
 
 
-def test_a_dashed_name_is_told_and_the_program_gets_it(shell: dict[str, str]) -> None:
+def test_a_dashed_name_is_told_and_the_program_gets_it(shell):
     words = [*ROSMINI, "rosrun", "example_pkg", "talker.py", "--name:=x", "__name:=second"]
     with start(words, env=shell, stderr=-1) as process:
         line = process.stderr.readline()
     assert "--name:=x is no remapping; ROS's own names begin with two underscores: __name:=x" in line
 
 
-def test_a_bag_is_recorded_and_played(shell: dict[str, str], tmp_path: Path) -> None:
+def test_a_bag_is_recorded_and_played(shell, tmp_path):
     """3.3.6: `rosbag record [topic] -o [bag]` and `rosbag play [bag]`."""
     env = {**shell, "PWD": str(tmp_path)}
     words = [*ROSMINI, "rosbag", "record", "/chatter", "-o", "house", "-l", "3"]

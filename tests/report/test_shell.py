@@ -1,13 +1,10 @@
 """The report's command lines that need more of a shell than one line: variables, pictures, nodes that are ended."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import signal
 import sys
 from contextlib import ExitStack
-from pathlib import Path
 from xmlrpc.client import ServerProxy
 
 import pytest
@@ -37,7 +34,7 @@ rostopic list
 """
 
 
-def test_every_line_of_the_report_is_typed_or_says_what_it_waits_for() -> None:
+def test_every_line_of_the_report_is_typed_or_says_what_it_waits_for():
     assert len(LINES) == 88
     known = {line for line, _ in (*WORKS, *MEASURES, *NAMES_THE_RIGHT_FORM)} | {
         *vars(test_graph_commands),
@@ -62,7 +59,7 @@ TURTLEBOT3 = (
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a POSIX shell")
-def test_the_environment(shell: dict[str, str], tmp_path: Path) -> None:
+def test_the_environment(shell, tmp_path):
     env = {**shell, "PYTHON": sys.executable, "MASTER": shell["ROS_MASTER_URI"], "ROS_MASTER_URI": ""}
     done = run(["bash", "-c", FUNCTIONS + ENVIRONMENT], env=env, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
@@ -72,7 +69,7 @@ def test_the_environment(shell: dict[str, str], tmp_path: Path) -> None:
     assert "/chatter" in lines
 
 
-def test_nodes_are_killed(shell: dict[str, str]) -> None:
+def test_nodes_are_killed(shell):
     """`roscpp kill [node]`: the error names rosnode, which does it."""
     said = run([*ROSMINI, "roscpp", "kill", "/second"], env=shell)
     assert said.returncode == 2
@@ -85,7 +82,7 @@ def test_nodes_are_killed(shell: dict[str, str]) -> None:
         wait_until(lambda: process.poll() is not None, "the end of /second")
 
 
-def test_pictures_are_written_as_pages(shell: dict[str, str], tmp_path: Path) -> None:
+def test_pictures_are_written_as_pages(shell, tmp_path):
     done = run([*ROSMINI, "rqt_graph", "-o", str(tmp_path / "graph.txt")], env=shell)
     assert done.returncode == 0, done.stderr
     assert "/talker" in (tmp_path / "graph.txt").read_text(encoding="utf-8")
@@ -96,13 +93,13 @@ def test_pictures_are_written_as_pages(shell: dict[str, str], tmp_path: Path) ->
     assert "/chatter" in (tmp_path / "bag.txt").read_text(encoding="utf-8")
 
 
-def test_help(shell: dict[str, str]) -> None:
+def test_help(shell):
     done = run([*ROSMINI, "rostopic", "-h"], env=shell)
     assert "rostopic echo" in done.stdout
     assert "rostopic bw" in done.stdout
 
 
-def test_the_workspace_of_the_report(shell: dict[str, str], tmp_path: Path) -> None:
+def test_the_workspace_of_the_report(shell, tmp_path):
     """7.7, 9.4.3: the launch file of two robots is read, and all that it names is there."""
     shutil.copytree(assets_dir() / "workspaces" / "report_ws" / "src", tmp_path / "src")
     env = {**shell, "ROS_PACKAGE_PATH": str(tmp_path / "src"), "TURTLEBOT3_MODEL": "burger"}
@@ -112,7 +109,8 @@ def test_the_workspace_of_the_report(shell: dict[str, str], tmp_path: Path) -> N
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Ctrl-C is sent otherwise there")
-def test_one_turtlebot_explores(shell: dict[str, str]) -> None:
+@pytest.mark.nightly
+def test_one_turtlebot_explores(shell):
     """9.5: four terminals, one launch in each; the last one starts nodes again, and Ctrl-C ends all of them."""
     env = {**shell, "TURTLEBOT3_MODEL": "burger"}
     keys = [*ROSMINI, "roslaunch", "turtlebot3_teleop", "turtlebot3_teleop_key.launch", "--check"]

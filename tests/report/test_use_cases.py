@@ -1,19 +1,13 @@
 """The report's commands of chapter 9 in cells, in its order; `test_shell` has those of 9.5 in terminals."""
 
-from __future__ import annotations
-
 import shutil
-from pathlib import Path
-from typing import Any
-
-import pytest
 
 from rosmini.core.packages import assets_dir
 
 STAGE = "%roslaunch navigation_stage move_base_gmapping_5cm.launch"
 
 
-def test_a_goal_and_exploration_on_stage(notebook: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_goal_and_exploration_on_stage(notebook, tmp_path, monkeypatch):
     """9.3 and 9.4: the launch files, the nodes that they start twice, the map that is saved, and the slips."""
     monkeypatch.chdir(tmp_path)
     notebook.ok("%load_ext rosmini")
@@ -36,7 +30,7 @@ def test_a_goal_and_exploration_on_stage(notebook: Any, tmp_path: Path, monkeypa
     assert {"/explore", "/explore_client", "/explore_server", "/slam_gmapping", "/stageros"} <= set(there)
 
 
-def test_two_turtlebots(notebook: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_two_turtlebots(notebook, tmp_path, monkeypatch):
     """9.4.3: two robots in the house, and the keys of each."""
     shutil.copytree(assets_dir() / "workspaces" / "report_ws" / "src", tmp_path / "src")
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "src"))

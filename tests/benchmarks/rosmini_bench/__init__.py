@@ -213,13 +213,9 @@ def _measures(args: argparse.Namespace, peers: ExitStack) -> Iterator[Measure]:
         yield from nav.measures(min(args.scale, 0.1) if args.quick else args.scale, args.seed)
     if args.subject in (None, "sim"):
         from . import sim
-        from .sim_mujoco import find_mujoco
         from .sim_peer import find_irsim
 
         irsim = None if args.no_peer else find_irsim()
         if irsim is None and not args.no_peer:
             print("ir-sim is not installed here: no peer (pip install ir-sim)")
-        mujoco = None if args.no_peer else find_mujoco()
-        if mujoco is None and not args.no_peer:
-            print("MuJoCo is not installed here: no peer (pip install mujoco; it takes 80 MB)")
-        yield from sim.measures(irsim, mujoco, args.scale)
+        yield from sim.measures(irsim, args.scale)

@@ -1,4 +1,4 @@
-"""Measures the simulator: real-time factors beside ir-sim and MuJoCo, raycasting, and physical correctness."""
+"""Measures the simulator: real-time factors beside ir-sim, raycasting, and physical correctness."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ def _check_scan(found: NDArray[np.float64], world: World, x: float, y: float) ->
 ROBOTS = (1, 2, 10, 100)
 
 
-def measures(irsim: Peer | None, mujoco: Peer | None, scale: float) -> Iterator[Measure]:
+def measures(irsim: Peer | None, scale: float) -> Iterator[Measure]:
     """Yield everything that is measured; `scale` under 0.01 leaves out the hundred robots that are heard.
 
     Steady speed is measured, so numba casts the rays from the start where it is installed.
@@ -115,7 +115,6 @@ def measures(irsim: Peer | None, mujoco: Peer | None, scale: float) -> Iterator[
             f"{several}, engine alone, poses at 100 Hz, scans at 5 Hz",
             "simulated s/s",
             partial(engine_factor, max(200 * scale / count, 1.0), count),
-            *_beside(mujoco, 60 * scale / count, count, scale),
         )
     yield Measure(
         "100 robots that push one another, engine alone, poses at 100 Hz",
