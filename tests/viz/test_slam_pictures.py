@@ -2,15 +2,23 @@
 
 import numpy as np
 import pytest
-from tests.navigation.gmapping.test_film import filmed
 
 from rosmini.navigation.gmapping import Film, GridSlam, Settings
 from rosmini.viz.view import ViewError
 
+from ..navigation.gmapping.test_matching import BEARINGS, square
+from ..navigation.gmapping.test_slam import a_slam
+
 
 @pytest.fixture(scope="module")
 def film():
-    return filmed()
+    """A short drive along a square room, in too many steps."""
+    slam = a_slam(particles=4, linear_update=0.3)
+    film = Film(slam)
+    for step in range(4):
+        x = 0.3 * step
+        film.take(slam.process(square(x, 0.0, 0.0), BEARINGS, (1.02 * x, 0.0, 0.0), float(step)))
+    return film
 
 
 def test_a_map_with_its_paths(film):
