@@ -30,7 +30,7 @@ from geometry_msgs.msg import Twist
 
 rospy.init_node("dance")
 publishers = []
-for topic, kind in rospy.get_published_topics():
+for topic, _ in rospy.get_published_topics():
     if topic.endswith("/scan"):
         robot = topic.removesuffix("/scan")
         publishers.append(rospy.Publisher(robot + "/cmd_vel", Twist, queue_size=1))

@@ -16,7 +16,7 @@ import rospy
 from std_msgs.msg import Float32
 
 class Newcomers(rospy.SubscribeListener):
-    def peer_subscribe(self, topic, publish, publish_to_peer):
+    def peer_subscribe(self, _topic, _publish, publish_to_peer):
         for order in list(orders):
             publish_to_peer(order)
 
