@@ -26,9 +26,10 @@ check_untyped_defs = True
 follow_imports = silent
 strict_optional = False
 disable_error_code = var-annotated
-[mypy-notebook.*]
+[mypy-notebook.*,courier.*]
 ignore_missing_imports = True
 """
+"""The packages are those that cells make."""
 
 
 def ruffs(folder: Path) -> str:
