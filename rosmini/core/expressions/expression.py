@@ -100,7 +100,7 @@ class Expression:
         return made if isinstance(node, ast.Constant) else self._with_spot(node, made)
 
     def _with_spot(self, node: ast.AST, made: Step) -> Step:
-        """Return the same closure, with errors converted to ours, which contain the part of the expression."""
+        """Wrap a closure to raise `ExpressionError` or `NotAllowed`, with the part of the expression that failed."""
 
         def checked(run: Run) -> Any:
             try:

@@ -122,7 +122,7 @@ class Rate:
         self._period = duration.to_nsec()
 
     def remaining(self) -> Duration:
-        """Return the time that :meth:`sleep` would sleep."""
+        """Return the time left in this cycle; negative if the cycle took too long."""
         return Duration.from_nsec(self.left_ns(self._node.clock.now_ns()))
 
     def left_ns(self, now: int) -> int:

@@ -5,7 +5,7 @@ the Master API (http://wiki.ros.org/ROS/Master_API) or of the Parameter Server A
 (http://wiki.ros.org/ROS/Parameter%20Server%20API): the same name and arguments, and the same answer, a list of
 
 - a code: 1 success, 0 failure (the call had a bad effect), -1 error (the call had no effect);
-a status text that people can read;
+- a human-readable status text;
 - a value, or a dummy of its type if the call failed.
 
 A call never raises: wrong arguments give the code -1. The
@@ -321,7 +321,7 @@ class Master(MasterPort):
 
     @_api("", _name("service"))
     def lookupService(self, caller_id: str, service: str) -> Triple:
-        """Return the address of a service."""
+        """Return the ``rosrpc`` URI of a service; the code is -1 if no node offers it."""
         _, uri = (self._service_apis or {}).get(service, (None, None))
         return [1, f"rosrpc URI: [{uri}]", uri] if uri else [-1, "no provider", ""]
 
@@ -329,7 +329,7 @@ class Master(MasterPort):
 
     @_api("", _name("node", may_be_root=True))
     def lookupNode(self, caller_id: str, node_name: str) -> Triple:
-        """Return the address of a node."""
+        """Return the XML-RPC URI of a node; the code is -1 for an unknown node."""
         node = self._nodes.get(node_name)
         return [1, "node api", node.api] if node else [-1, f"unknown node [{node_name}]", ""]
 

@@ -61,7 +61,7 @@ class ParameterTree:
         return True
 
     def names(self) -> list[str]:
-        """Return the names of all parameters, in the order in which they were set."""
+        """Return the names of all parameters, in insertion order within each namespace."""
         return _leaves("/", self._root)
 
     def search(self, ns: str, key: str) -> str | None:

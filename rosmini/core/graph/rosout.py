@@ -250,7 +250,10 @@ class Logger:
         return message
 
     def set_level(self, logger: str, level: str) -> None:
-        """Log only messages at ``level`` and above. Raises ``KeyError`` for an unknown level."""
+        """Set the lowest level that ``logger`` logs; a prefix ``ros.`` is removed from its name.
+
+        Raises ``KeyError`` for an unknown level.
+        """
         self.tree.set(logger.removeprefix("ros."), LEVELS[level.upper()])
 
     def listing(self) -> list[tuple[str, str]]:

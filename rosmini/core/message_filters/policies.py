@@ -21,9 +21,11 @@ Queue = dict[int, Any]
 class Policy(ABC):
     """Keeps up to ``queue_size`` messages of each of ``count`` inputs, and drops those with the oldest stamps.
 
-    A message replaces one of the same input and stamp. With ``reset``, the queue of an input is emptied if its next
-    message arrives at an earlier clock time; there is no output until this has happened for all inputs whose messages
-    were later. Raises ``MessageFilterError`` for no inputs and for a ``queue_size`` below 1.
+    A message replaces one of the same input and stamp. With ``reset``, a message that arrives at an earlier clock time
+    than the previous message of its input empties the queue of that input first. After such a jump, no sets are
+    returned until every input with a later arrival time has received a message again.
+
+    Raises ``MessageFilterError`` for no inputs and for a ``queue_size`` below 1.
     """
 
     _forgets_all: ClassVar = False

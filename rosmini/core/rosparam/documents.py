@@ -98,11 +98,13 @@ class _Refused(RosParamException):
 
 
 def assignments(name: str, value: Any) -> Iterator[tuple[str, Any]]:
-    """Yield the settings of rosparam for the parameter ``name`` and a value.
+    """Yield the (name, value) pairs that rosparam sets to store ``value`` under ``name``.
 
-    A dictionary is merged: one setting for each of its values. Anything else, including a list, replaces
-    the old value. An empty dictionary sets nothing. Raises ``RosParamException`` for values that the Parameter Server
-    does not support.
+    A dictionary yields one pair for each value in it, at any depth, so it is merged into the existing namespace; an
+    empty dictionary yields nothing. Any other value, including a list, replaces the old one.
+
+    Raises ``RosParamException`` for a value that the Parameter Server does not support, a key that is not a string, and
+    a root that is not a dictionary.
     """
     if name == "/" and not isinstance(value, dict):
         raise _Refused(

@@ -50,7 +50,7 @@ class BufferCore:
         return self._set(transform, authority, static=False)
 
     def set_transforms(self, transforms: Iterable[Any], authority: str = "default_authority") -> None:
-        """Add several transforms of one message."""
+        """Add each `geometry_msgs/TransformStamped`, for example all of a `tf2_msgs/TFMessage`."""
         for transform in transforms:
             self._set(transform, authority, static=False)
 
@@ -178,7 +178,7 @@ class Buffer(BufferCore):
         return taken
 
     def set_transforms(self, transforms: Iterable[Any], authority: str = "default_authority") -> None:
-        """Add several transforms of one message; wake waiters and call watchers once, after the last one."""
+        """Add several transforms; wake waiters and call watchers once, after the last one."""
         self._several = True
         try:
             super().set_transforms(transforms, authority)

@@ -53,7 +53,7 @@ def sample_motion_model(
 
 
 def _diff(particles: Floats, motion: Pose, alphas: Sequence[float], noise: Floats, *, corrected: bool) -> Floats:
-    """Sample a turn, a straight drive and another turn, for a robot with differential drive."""
+    """Sample a rotation, a translation and a second rotation, for a robot with differential drive."""
     x, y, turn = motion
     distance = math.hypot(x, y)
     first = 0.0 if distance < MIN_DISTANCE else math.atan2(y, x)
@@ -78,7 +78,7 @@ def _diff(particles: Floats, motion: Pose, alphas: Sequence[float], noise: Float
 
 
 def _omni(particles: Floats, motion: Pose, alphas: Sequence[float], noise: Floats, *, corrected: bool) -> Floats:
-    """Sample a drive in any direction with a turn, for an omnidirectional robot."""
+    """Sample a translation in any direction and a rotation, for an omnidirectional robot."""
     x, y, turn = motion
     distance = math.hypot(x, y)
     a1, a2, a3, a4, a5 = alphas

@@ -1,4 +1,7 @@
-"""The part of a plan near the local costmap, and the distance to its end: `goal_functions`, on arrays."""
+"""Functions for a plan and its goal, as in `base_local_planner/goal_functions.h`, but for arrays instead of messages.
+
+They select the part of a plan in the local costmap, compare a pose with the goal, and detect a stopped robot.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +17,7 @@ from rosmini.navigation.costmap_2d.costmap import Costmap2D
 Floats = NDArray[np.float64]
 
 PRUNE_DISTANCE = 1.0
-"""Poses farther behind than this [m] are pruned, up to the first one that is nearer."""
+"""The poses of a plan before the first one within this distance of the robot are pruned [m]."""
 
 
 def slice_in_reach(plan: Floats, robot: Pose, grid: Costmap2D) -> slice:
@@ -33,7 +36,7 @@ def slice_in_reach(plan: Floats, robot: Pose, grid: Costmap2D) -> slice:
 
 
 def passed_count(plan: Floats, robot: Pose) -> int:
-    """Return the number of poses at the start of a plan (n, 3) farther than `PRUNE_DISTANCE` from the robot."""
+    """Return the number of poses at the start of a plan (n, 3) that are not within `PRUNE_DISTANCE` of the robot."""
     near = ((plan[:, 0] - robot[0]) ** 2 + (plan[:, 1] - robot[1]) ** 2) < PRUNE_DISTANCE * PRUNE_DISTANCE
     return int(np.argmax(near)) if near.any() else len(plan)
 

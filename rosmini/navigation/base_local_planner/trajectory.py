@@ -67,7 +67,10 @@ class Samples:
         return {name: count for name, count in {**found, "generator": self.refused}.items() if count}
 
     def explain(self, number: int) -> dict[str, float | None]:
-        """Return each critic's scaled score of a trajectory, None for the rejecting critic, and the `total`."""
+        """Return a trajectory's scaled score from each critic whose weight is not 0, and the `total`.
+
+        The score of a critic that rejects the trajectory is None, and so is the total if any critic does.
+        """
         row: dict[str, float | None] = {
             name: None if self.raw[number, i] < 0 else float(self.raw[number, i] * self.scales[i])
             for i, name in enumerate(self.critics)

@@ -205,7 +205,10 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
 
     @property
     def given_up_text(self) -> str:
-        """A clause with the positions of the latest frontiers if all were given up, to append to a sentence."""
+        """Text to append to a message when exploration ends: the positions of the latest frontiers, all given up.
+
+        Empty if there are no frontiers.
+        """
         if not self.frontiers:
             return ""
         return f"; {len(self.frontiers)} were given up, at {formatted_points(map(self._travel_point, self.frontiers))}"

@@ -62,10 +62,13 @@ class GlobalPlannerParameters(GlobalPlannerConfig):
 
 
 class GlobalPlanner(GridPlanner, plugin="global_planner/GlobalPlanner"):
-    """Plans with Dijkstra's algorithm or A*, interpolated or not, down the gradient or from cell to cell.
+    """Computes a potential with Dijkstra's algorithm or A*, and a path by gradient descent or from cell to cell.
+
+    With `use_quadratic`, the potential of a cell is interpolated between two neighbours.
 
     Topics: `~NAME/plan` (nav_msgs/Path), `~NAME/potential` (nav_msgs/OccupancyGrid; -1 for cells that were not
-    reached). Service: `~NAME/make_plan` (nav_msgs/GetPlan). The costs can be changed with dynamic_reconfigure.
+    reached). Service: `~NAME/make_plan` (nav_msgs/GetPlan). The parameters of `GlobalPlannerConfig` can be
+    changed with dynamic_reconfigure.
     """
 
     def _read_parameters(self) -> None:

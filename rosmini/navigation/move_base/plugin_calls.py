@@ -34,9 +34,10 @@ class PluginFault(NavigationFailure):
 
 
 def call(node: Node, what: str, function: Callable[..., Any], *arguments: Any, budget: float) -> Any:
-    """Call a plugin's method; `what` names it in error messages, and `budget` is in seconds.
+    """Call a plugin's method; `what` names it in error messages.
 
-    Raises the method's exception if that is a `NavigationFailure`, and `PluginFault` for all others.
+    `budget` [s] limits the call, unless the plugin is one of rosmini's. Exceptions of the types `NavigationFailure` and
+    `ROSInterruptException` are passed on; any other exception, or exceeding the budget, raises `PluginFault`.
     """
     owner = getattr(function, "__self__", function)
     is_ours = type(owner).__module__.startswith("rosmini.")

@@ -10,9 +10,8 @@
 >>> round(robot.pose[0], 9)
 0.2
 
-Bodies without contacts move in closed form; contacts are resolved on one fixed grid of time. Queries, scans, and
-saving and restoring a state do not change the simulation: see
-`rosmini.sim.engine.stepper`.
+Bodies without contacts move in closed form; contacts are resolved on a fixed time grid. Queries and scans do not affect
+the simulation, and a restored state continues with identical results: see `rosmini.sim.engine.stepper`.
 """
 
 from __future__ import annotations
@@ -120,7 +119,7 @@ class Engine:
     # -- robots --------------------------------------------------------------------------------------------------
 
     def add(self, name: str, model: RobotModel, pose: Pose | None = None) -> Robot:
-        """Add a robot; without a pose at the first free start of the world.
+        """Add a robot at `pose`, or at the first free start of the world if no pose is given.
 
         Raises `WorldError`, which names the obstacle in the way, and `RosminiError` if the name is taken.
         """

@@ -1,7 +1,7 @@
 """The part of a world that each laser can see, with caches.
 
-Cross-sections that do not change are computed once: that of the fixed obstacles at each height, and that of each robot
-model in the model's own frame. Those of all robots at one time are computed once for all lasers.
+Caches hold, for each height, the cross-section of the fixed obstacles and of each robot model in the model's own frame.
+The cross-sections of the robots at their current poses are computed once for all lasers at the same height.
 """
 
 from __future__ import annotations
@@ -152,7 +152,7 @@ class LaserView:
         return kept[2]
 
     def template(self, model: RobotModel, height: float) -> CrossSection:
-        """Return the cross-section of a robot in its own frame."""
+        """Return the cross-section of a robot model at this height [m], in the model's own frame."""
         key = (id(model), height)
         if key not in self._templates:
             # kept with the model, so that its id is not reused

@@ -55,11 +55,14 @@ def dead_reckoning(pose: Pose, left: float, right: float, separation: float, tur
 
 @dataclass
 class Odometry:
-    """The firmware's odometry state: the last encoder counts and the quantities derived from them."""
+    """The firmware's odometry state: the last encoder counts and the quantities derived from them.
+
+    `v` [m/s] and `w` [rad/s, to the left] are the robot's average speeds since the previous update.
+    """
 
     model: RobotModel
     pose: Pose = (0.0, 0.0, 0.0)
-    """In the odom frame, whose origin is the robot's pose at power-on."""
+    """In the odom frame [m, m, rad], whose origin is the robot's pose at power-on."""
     v: float = 0.0
     w: float = 0.0
     left: float = 0.0

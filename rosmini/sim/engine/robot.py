@@ -81,7 +81,7 @@ class Robot:
     # -- trajectory ----------------------------------------------------------------------------------------------
 
     def _set_trajectory(self, ns: int, trajectory: Trajectory) -> None:
-        """Follow another path from a time on."""
+        """Follow another path from time `ns` on."""
         self._since_ns, self._trajectory = ns, trajectory
         self._step: Step | None = None
         self._point_ns = -1
@@ -117,7 +117,7 @@ class Robot:
         return self._point
 
     def at(self, ns: int) -> TrajectoryPoint:
-        """Return its pose and wheel state at time `ns`, assuming that its path does not change before."""
+        """Return its pose and wheel state at time `ns`, assuming that its path does not change before then."""
         step = self._step
         if step is None:
             return self._trajectory.at((ns - self._since_ns) / SECOND)
@@ -132,7 +132,10 @@ class Robot:
         return self.clearance - self.top_speed * (ns - self.clearance_ns) / SECOND
 
     def leg(self) -> tuple[float, Pose, WheelState, tuple[Numbers, Numbers]]:
-        """Return the current leg of its trail: start time [s], pose, wheel state, and the inputs of its path."""
+        """Return the latest leg of its trail: start time [s], pose, wheel state, and (targets, wheel factors).
+
+        During a step with a contact, this is the leg that begins at the end of the step.
+        """
         if self._step is None:
             since, trajectory = self._since_ns, self._trajectory
         else:
@@ -165,12 +168,12 @@ class Robot:
 
     @property
     def left_distance(self) -> float:
-        """Distance travelled by the left rim [m]."""
+        """Distance rolled by the left rim since the last `stop` [m]; negative backwards."""
         return self._current().state[2]
 
     @property
     def right_distance(self) -> float:
-        """Distance travelled by the right rim [m]."""
+        """Distance rolled by the right rim since the last `stop` [m]; negative backwards."""
         return self._current().state[3]
 
     @property

@@ -1,29 +1,31 @@
-"""The passage of time in an engine: one fixed grid of steps, which queries do not change.
+"""Advances the time of an engine on a fixed grid of steps, which queries do not change.
 
-Time is counted in whole nanoseconds since the engine began; step k always goes from k * STEP_NS to (k + 1) *
-STEP_NS.
+Time is counted in whole nanoseconds since the engine was created; step k always lasts from k * STEP_NS to
+(k + 1) * STEP_NS.
 
-*Free motion* needs no steps. A robot follows a path in closed form from the last change (`rosmini.sim.engine.robot`),
-no matter how often its pose is queried. A command, a change of slip or the expiry of a command changes the path at
-exactly its time.
+*Free motion* needs no steps. A robot follows a path in closed form from the time of its last change
+(`rosmini.sim.engine.robot`), no matter how often its pose is queried. A command, a change of slip or the expiry of a
+command changes the path at exactly its time.
 
-*Contact* is resolved at the points of the grid. In a step, first the objects that slide or are pushed move
-(by impulses, from their poses at its beginning), then robots that their wheels would take into an obstacle are
-pushed out of it (at its end). A robot that is pushed out leaves its path for that step and moves straight
-to the new pose; from the end of the step on it follows a new path. A step is computed once, when
-time first passes its beginning, and only from the state at its beginning. Therefore:
+*Contacts* are resolved in steps. Each step first moves the objects that slide or are pushed, by impulses computed from
+the poses at the beginning of the step. It then finds the robots whose wheels would drive them into an obstacle by the
+end of the step, and pushes them out. Such a robot leaves its path for that step and moves straight to the new pose;
+after the step it follows a new path. A step is computed once, when time first passes its beginning, and only from the
+state at its beginning. Therefore:
 
-- a pose within a step lies on the straight line between its beginning and its end, and is not stored;
+- within a step, a body in contact moves straight from its pose at the beginning to its pose at the end; poses in
+  between are not stored;
 - a command within a step takes effect at the end of the step if a contact keeps the robot from its path;
-- an object placed within a step is there at once and moves at constant velocity; contacts and friction act on it from
+- an object placed within a step appears at once and moves at constant velocity; contacts and friction act on it from
   the next step on;
-- a change of friction and gravity within a step takes effect from the next one on;
+- a change of friction or gravity within a step takes effect from the next step on;
 - the solver keeps no data between steps, so a state consists of poses and velocities only.
 
-*Which bodies are checked* matters only for speed. Each robot and each mover has a `clearance`: the distance that it can
-move, and the others with it, before a contact is possible; two movers share the gap between them. Bodies without
-clearance left are checked: every `PLAN` steps the bodies that may have contacts, and those near them, are determined.
-Checking more robots than necessary changes nothing: a robot without a contact stays on its path.
+*The selection of bodies to check* affects only the computing time. Each robot and each mover has a `clearance`, the
+distance that it can move before a contact is possible; of the gap between two moving bodies, each gets half. At least
+every `PLAN` steps while contacts are possible, the bodies that may have contacts are determined, and those near them;
+only these bodies are checked. Checking more robots than necessary changes nothing: a robot without a contact stays on
+its path.
 """
 
 from __future__ import annotations
@@ -228,7 +230,7 @@ class Stepper:
                     each.clearance, each.clearance_ns = max(gap - SAFE, 0.0), now
 
     def _measure_clearances(self, robots: list[Robot]) -> None:
-        """Measure how far robots can move without a contact; two moving bodies share a gap by half."""
+        """Measure how far robots can move without a contact; of the gap between two moving bodies, each gets half."""
         now, contacts = self._instant.ns, self._population.contacts
         bodies = [contacts.bodies[robot.name] for robot in robots]
         scene = contacts.scene(dict.fromkeys([*bodies, *contacts.neighbours(bodies, VIEW)]), VIEW)
@@ -304,7 +306,7 @@ class Stepper:
         self._population.record_leg(mover)
 
     def _is_stuck(self, mover: Mover, clock: float, pace: int) -> bool:
-        """Return True if in a step from `clock` [s] on a mover would come too near to a body: see `is_blocked`."""
+        """Return True if a mover would come too close to a body in a step from its `clock` [s] on: see `is_blocked`."""
         return self._population.contacts.is_blocked(
             mover.obstacle.name, mover.obstacle.at(clock + pace * STEP), mover.keep
         )
