@@ -280,7 +280,7 @@ _KIND_OF = {python: kind for kind, python in KINDS.items()}
 
 
 def _enumeration(choices: tuple[str, ...], meaning: str) -> str:
-    """Return the ``edit_method`` of a text with these ``choices``, as generated from ``.cfg`` files."""
+    """Return the ``edit_method`` of a string parameter with these choices, as generated from ``.cfg`` files."""
     constants = [
         {"name": each, "type": "str", "value": each, "description": "", "ctype": "std::string"} for each in choices
     ]

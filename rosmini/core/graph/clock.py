@@ -101,6 +101,7 @@ class Rate:
     """Keeps a loop at ``hz`` cycles per second of the node's time (http://wiki.ros.org/rospy/Overview/Time).
 
     With ``reset``, a jump of the clock back to an earlier time restarts the cycle instead of raising an exception.
+    Raises ``InvalidRate`` if ``hz`` is not positive.
     """
 
     def __init__(self, node: Node, hz: float, *, reset: bool = False) -> None:
@@ -175,9 +176,13 @@ class TimerEvent(NamedTuple):
 class Timer:
     """Calls ``callback(event)`` every ``period`` seconds of the node's time, in a separate lane.
 
-    A callback that takes longer than the period delays the next call; missed calls are not made up for. A callback that
-    raises an exception ends the timer, as it ends the thread of a ``rospy.Timer``: the error is reported, and the node
-    continues. The lane is not parked between callbacks.
+    With ``oneshot`` it calls the callback only once. A callback that takes longer than the period delays the following
+    calls, which then run immediately; a call more than two periods late restarts the schedule, and the missed calls
+    are dropped. A callback that raises an exception ends the timer, as it ends the thread of a ``rospy.Timer``: the
+    error is reported, and the node continues. A jump of ``/clock`` back to an earlier time ends the timer with a
+    warning; with ``reset`` it restarts the schedule instead. Between callbacks the lane is idle, not parked.
+
+    Raises ``RosminiError`` if the period is not positive.
     """
 
     def __init__(

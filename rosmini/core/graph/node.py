@@ -170,12 +170,13 @@ class Node:
         on_disconnect: Callable[[str], object] | None = None,
         headers: Header | None = None,
     ) -> Publisher:
-        """Publish ``message_class`` on ``topic``.
+        """Return a publisher of ``message_class`` on ``topic``.
 
-        ``queue_size`` limits the messages that wait for one subscriber between two turns of the queue (None: no limit);
-        ``latch`` gives late subscribers the last message. ``on_connect``/``on_disconnect`` get the other node's name.
-        ``headers`` are additional fields of the connection header for subscribers that connect from now on.
-        Raises ``TypeMismatch`` if this node publishes the topic with a type of another md5 sum.
+        ``queue_size`` limits the messages that wait for a slow subscriber once the connection's buffers are full; the
+        oldest are dropped (None or 0: no limit). ``latch`` gives late subscribers the last message.
+        ``on_connect``/``on_disconnect`` get the other node's name. ``headers`` are additional fields of the connection
+        header for subscribers that connect from now on. Raises ``TypeMismatch`` if this node already publishes the
+        topic with a type whose md5 sum differs.
         """
         return self.scheduler.run_in_scheduler(
             lambda: self._publisher(
@@ -234,8 +235,8 @@ class Node:
         """Call ``callback(message, *arguments)`` for each message on ``topic``.
 
         ``queue_size`` limits the messages that wait while a callback blocks (None: no limit; the oldest are dropped).
-        ``takes_batches``: as in rospy, all messages that wait when a callback returns are delivered, whatever arrives
-        until then; otherwise newer messages replace them, as in roscpp.
+        With ``takes_batches``, as in rospy, all messages that wait when a callback returns are delivered, even if newer
+        ones arrive meanwhile; otherwise newer messages replace them, as in roscpp.
         ``numpy`` gives numeric arrays as read-only numpy arrays, else as rospy's tuples. ``receipt`` overrides both:
         see ``Subscriber.thaw_for``. ``tcp_nodelay`` asks publishers of other processes to send each message at once.
         ``skip_own_mismatch`` allows this node itself to publish the topic with another type, as roscpp does. All
@@ -621,7 +622,10 @@ class Node:
     # -- rates and timers ----------------------------------------------------------------------------------------
 
     def rate(self, hz: float, *, reset: bool = False) -> Rate:
-        """Return a ``Rate``, which keeps a loop at ``hz`` cycles per second."""
+        """Return a ``Rate``, which keeps a loop at ``hz`` cycles per second.
+
+        Raises ``InvalidRate`` if ``hz`` is not positive.
+        """
         return Rate(self, hz, reset=reset)
 
     def timer(
@@ -632,7 +636,10 @@ class Node:
         oneshot: bool = False,
         reset: bool = False,
     ) -> Timer:
-        """Call ``callback(event)`` every ``period`` seconds."""
+        """Return a ``Timer`` that calls ``callback(event)`` every ``period`` seconds, or once with ``oneshot``.
+
+        ``reset`` lets it survive a clock that jumps back. Raises ``RosminiError`` if the period is not positive.
+        """
         span = period if isinstance(period, Duration) else Duration.from_sec(period)
         return self.scheduler.run_in_scheduler(lambda: Timer(self, span, callback, oneshot=oneshot, reset=reset))
 

@@ -42,7 +42,7 @@ def source_of(filename: str) -> str:
 
 
 def logger_services(logger: Logger) -> list[tuple[str, Any, Callable[[Any], Any]]]:
-    """Return name, class and handler of each node's services ``~get_loggers`` and ``~set_logger_level``."""
+    """Return (name, class, handler) of the services ``~get_loggers`` and ``~set_logger_level`` for a node's logger."""
     logger_class = message_class("roscpp/Logger")
 
     def listing(_: Any) -> Any:

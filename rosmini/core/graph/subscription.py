@@ -23,7 +23,7 @@ MAX_RETRY_S = 32.0
 
 
 def _assign_header(message: Any, header: Header) -> None:
-    """Set the header on an object that a subscriber with its own ``receipt`` made of a message."""
+    """Set the connection header on an object into which a subscriber's ``receipt`` has converted a message."""
     message._connection_header = header
 
 

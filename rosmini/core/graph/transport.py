@@ -118,15 +118,15 @@ class Transport(Protocol):
         """Return True if the node with this slave API, or these services, may be reachable by this transport."""
 
     def offer(self, caller: str) -> list[Any] | None:
-        """Return the offer of the node at ``caller`` in ``requestTopic``, [protocol, ...].
+        """Return the protocol entry, [name, ...], that the node at URI ``caller`` sends with ``requestTopic``.
 
         None if the node does not use this transport.
         """
 
     def topic_parameters(self, uri: str, offer: list[Any]) -> list[Any] | None:
-        """Return the answer of ``requestTopic`` of the node at ``uri`` to an offer, [protocol, ...].
+        """Return the parameters, [name, ...], with which the node at ``uri`` answers an offer in ``requestTopic``.
 
-        None if this transport does not suit the offer.
+        None if the offer is for another transport.
         """
 
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:
@@ -222,11 +222,14 @@ class Transports:
         return self.transports[-1].service_uri(uri)
 
     def offers(self, caller: str) -> list[list[Any]]:
-        """Return the offers of the node at ``caller`` in ``requestTopic``."""
+        """Return the protocol entries that the node at URI ``caller`` sends with ``requestTopic``."""
         return [offer for transport in self.transports if (offer := transport.offer(caller)) is not None]
 
     def topic_parameters(self, uri: str, offers: list[list[Any]]) -> list[Any] | None:
-        """Return the answer of ``requestTopic`` of the node at ``uri``, by the first of our transports in the offer."""
+        """Return the parameters, [name, ...], with which the node at ``uri`` answers ``requestTopic``.
+
+        The first transport that accepts one of the offers answers; None if none does.
+        """
         answers = (transport.topic_parameters(uri, offer) for transport in self.transports for offer in offers)
         return next((answer for answer in answers if answer is not None), None)
 

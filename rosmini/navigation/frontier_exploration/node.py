@@ -234,7 +234,7 @@ class ExploreServer:
     # -- result --------------------------------------------------------------------------------------------------
 
     def _finish(self, reason: str) -> None:
-        """Finish the task when all frontiers were given up; it fails if there never was one or the robot is stuck."""
+        """End the task when no frontier is left; it fails if there never was one or if the robot is stuck."""
         if not self._found_frontier:
             self._fail(f"Failed exploration: {reason}")
             return

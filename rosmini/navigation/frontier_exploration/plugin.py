@@ -66,8 +66,9 @@ def points_in_frame(buffer: Buffer, frame: str, source: str, points: Floats) -> 
 class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExploreLayer"):
     """Draws an impassable boundary into the costmap, and chooses the nearest frontier.
 
-    The map or sensor layer may be below or above it; its own costs are the boundary and, with `explore_clear_space`,
-    unknown elsewhere. Unlike the original it rejects boundaries that enclose no area.
+    The layer may come before or after the map and sensor layers. It marks the boundary as lethal and, with
+    `explore_clear_space`, all other cells without an obstacle as unknown. Unlike the original it rejects boundaries
+    that enclose no area.
     """
 
     def on_initialize(self) -> None:
@@ -132,7 +133,7 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
         return ServiceRefused(text)
 
     def reset(self) -> None:
-        """Remove the boundary."""
+        """Remove the boundary and the frontiers, and forget the goals that could not be reached."""
         self.boundary, self.frontiers = None, []
         self.given_up.points.clear()
         self._is_drawn, self._has_changed = False, True
@@ -152,7 +153,7 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
             bounds.touch_all()
 
     def update_costs(self, grid: Costmap2D, window: Window) -> None:
-        """Write the boundary, and unknown cells inside it; obstacles are kept."""
+        """Write the boundary and, with `explore_clear_space`, unknown cells; lethal obstacles are not overwritten."""
         if self.boundary is None:
             return
         if not self._is_drawn:

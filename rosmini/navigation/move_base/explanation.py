@@ -17,7 +17,7 @@ MoveBase = Any
 
 @dataclass
 class Explanation:
-    """The result of `explain()`: `numbers` for tables and tests, the text in words, and a picture from `show()`."""
+    """The result of `explain()`: `str()` gives the text, `numbers` its values, and `show()` draws a picture."""
 
     lines: list[str] = field(default_factory=list)
     numbers: dict[str, Any] = field(default_factory=dict)

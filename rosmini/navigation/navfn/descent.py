@@ -34,7 +34,10 @@ NORMAL, LAST, NONE_LOWER = range(3)
 
 
 def slope(before: float, here: float, after: float, width: float) -> float:
-    """Return the descent through three adjacent cells; if the middle one is unreached, +-`width` to a reached one."""
+    """Return the decrease of the potential across three adjacent cells, positive if it falls towards `after`.
+
+    If the middle cell is unreached, return -`width` or +`width`, towards a reached neighbour, or 0 without one.
+    """
     if here >= HIGH:
         if before < HIGH:
             return -width
@@ -79,7 +82,10 @@ def surrounded(potential: NDArray[np.float32], n: int, width: int) -> bool:
 
 
 def down(potential: NDArray[np.float32], n: int, width: int, dx: float, dy: float) -> tuple[float, float]:
-    """Return the direction of descent, interpolated between four cells from `n` on; (0, 0) if there is none."""
+    """Return the unit vector of descent at offset (dx, dy) [cells] from the centre of cell `n`.
+
+    Interpolate between `n` and its neighbours to the right, above, and above right; (0, 0) if no direction leads down.
+    """
     gx = gy = 0.0
     for corner in range(4):
         right, above = corner % 2, corner // 2

@@ -234,7 +234,10 @@ def lever_arm(i: int, x: float, y: float, scene: Scene) -> tuple[float, float]:
 
 
 def find_contacts(scene: Scene, hits: Floats) -> int:
-    """Find all contacts and return their number; the second body is -1 - m for the fixed outline m."""
+    """Write the points of all contacts into `hits` and return their number.
+
+    The second body of a contact is -1 - m for the fixed outline m.
+    """
     _, bodies, _, corners, first, begin, radius, near_at, near, sides, starts, boxes, mate_at, mates = scene
     count = 0
     for i in range(bodies.shape[0]):
@@ -257,7 +260,7 @@ def find_contacts(scene: Scene, hits: Floats) -> int:
 
 
 def append_contact(found: Contact, i: int, j: int, hits: Floats, count: int) -> int:
-    """Append the points of a contact; return the new number of points."""
+    """Write the points of a contact into `hits` from row `count` on; return the new number of points."""
     points, nx, ny, d0, x0, y0, d1, x1, y1 = found
     for k in range(points):
         hit = hits[count]

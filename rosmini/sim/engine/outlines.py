@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 Contact = tuple[int, float, float, float, float, float, float, float, float]
-"""Number of points, the normal, and for each point its depth and position."""
+"""Number of points, the normal (x, y), and for each point its depth and position (depth, x, y) [m]."""
 
 NONE: Contact = (0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
@@ -58,7 +58,11 @@ def facing(a: Floats, a0: int, a1: int, nx: float, ny: float) -> tuple[int, int]
 
 
 def height(a: Floats, i: int, j: int, nx: float, ny: float, t: float) -> float:
-    """Return a side's extent along a normal at offset t; its maximum if the side is parallel to the normal."""
+    """Return the coordinate along a normal of the point of a side at coordinate `t` along the tangent [m].
+
+    The tangent is the normal turned left by 90 degrees. For a side parallel to the normal, return the larger
+    coordinate of its ends.
+    """
     ti, tj = a[i, 1] * nx - a[i, 0] * ny, a[j, 1] * nx - a[j, 0] * ny
     hi, hj = a[i, 0] * nx + a[i, 1] * ny, a[j, 0] * nx + a[j, 1] * ny
     if abs(tj - ti) < 1e-12:

@@ -49,7 +49,7 @@ class Step(NamedTuple):
 
 
 class Robot:
-    """A robot with two wheels: its pose, its wheel speeds and its commands."""
+    """A robot's pose, wheel speeds and commands; for a differential drive, and the base class for the other drives."""
 
     drive: Drive
     _point: TrajectoryPoint

@@ -141,7 +141,10 @@ class Drive(ABC):
 
 
 class DifferentialDrive(Drive):
-    """Two wheels: nominal speeds of the left and right rim [m/s], and their distances [m]."""
+    """Two driven wheels. Targets: nominal speeds of the left and right rim [m/s].
+
+    State: these speeds, then the distances that the two rims have travelled [m].
+    """
 
     initial_state = (0.0, 0.0, 0.0, 0.0)
     targets = (0.0, 0.0)
@@ -229,7 +232,10 @@ class DifferentialDrive(Drive):
 
 
 class HolonomicDrive(Drive):
-    """A holonomic drive: nominal speeds ahead, to the left and of the turn, and the pose estimated from them."""
+    """A holonomic drive. Targets: nominal speeds ahead and to the left [m/s], and the rate of turn [rad/s].
+
+    State: these speeds, then the pose estimated from them by dead reckoning.
+    """
 
     initial_state = (0.0,) * 6
     targets = (0.0, 0.0, 0.0)

@@ -366,7 +366,7 @@ class History:
 
 
 class _Deliveries(Observer):
-    """Records the messages of one connection, and that its callbacks act on them."""
+    """Records each delivery on one connection as the cause of what its callbacks then do."""
 
     def __init__(self, history: History, connection: Connection) -> None:
         self._history = history

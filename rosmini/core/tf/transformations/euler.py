@@ -34,7 +34,7 @@ class Order(NamedTuple):
 def order_of(axes: Axes) -> Order:
     """Interpret a name such as `sxyz`, or tf's tuple (first axis, parity, repetition, frame).
 
-    Raises `KeyError`.
+    Raises `KeyError` for a name of no convention.
     """
     if isinstance(axes, str):
         letters = ["xyz".find(letter) for letter in axes[1:]]
@@ -51,7 +51,7 @@ def order_of(axes: Axes) -> Order:
 
 
 def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Floats:
-    """Return the quaternion (x, y, z, w) of three angles [rad]; `sxyz` is roll, pitch, yaw (REP 103)."""
+    """Return the quaternion (x, y, z, w) of three Euler angles [rad]; `sxyz` is roll, pitch, yaw (REP 103)."""
     order = order_of(axes)
     result = np.array([0.0, 0.0, 0.0, 1.0])
     for axis, angle in zip(order.axes, (ak, aj, ai) if order.reversed else (ai, aj, ak), strict=True):
@@ -62,12 +62,12 @@ def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Axes = "sxyz") 
 
 
 def euler_matrix(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Floats:
-    """Return the matrix (4, 4) of three angles [rad]."""
+    """Return the homogeneous rotation matrix (4, 4) of three Euler angles [rad]."""
     return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
 
 
 def euler_from_matrix(matrix: ArrayLike, axes: Axes = "sxyz") -> tuple[float, float, float]:
-    """Return three angles [rad] of a rotation; in gimbal lock the angle about the last static axis is 0."""
+    """Return the Euler angles [rad] of a rotation matrix; in gimbal lock the angle about the last static axis is 0."""
     (i, j, k), other, sign, turned = order_of(axes)
     m = np.asarray(matrix, dtype=np.float64)[:3, :3]
     if i == k:
@@ -85,5 +85,5 @@ def euler_from_matrix(matrix: ArrayLike, axes: Axes = "sxyz") -> tuple[float, fl
 
 
 def euler_from_quaternion(quaternion: ArrayLike, axes: Axes = "sxyz") -> tuple[float, float, float]:
-    """Return three angles [rad] of a quaternion (x, y, z, w)."""
+    """Return the Euler angles [rad] of a quaternion (x, y, z, w)."""
     return euler_from_matrix(quaternion_matrix(quaternion), axes)
