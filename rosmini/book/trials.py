@@ -85,7 +85,7 @@ class Trial:
         for handle in self._scripts:
             if handle.poll():
                 last = self.output.strip().rpartition("\n")[2] or f"exit status {handle.poll()}"
-                raise Wrong(f"{handle.spec.path} ended with an error: {last}", "fix the error in this line")
+                raise Wrong(f"{handle.spec.path} ended with an error: {last}", "fix this error")
 
     def expect_no_errors(self) -> None:
         """Raise `Wrong` if a script has logged an error, such as that of a callback that failed."""

@@ -90,7 +90,7 @@ def fast_commands(answer: Any) -> None:
         expect(
             found == wanted,
             f"It {'keeps' if found else 'drops'} {what}.",
-            "it has the form: topic == ... and m. ... > ...",
+            "compare m.linear.x with > 0.1" if found else "the topic is '/cmd_vel', with a slash",
         )
 
 

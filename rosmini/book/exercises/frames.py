@@ -122,7 +122,7 @@ def carrot(answer: Script) -> Any:
             expect(
                 abs(y - right) < 1e-3,
                 f"At the time {stamp:.2f} s the carrot is at y = {y:.2f}, not at 0.4 sin(t) = {right:.2f}.",
-                "take the same time for the stamp and for the sine",
+                "t is the time of the stamp: header.stamp.to_sec()",
             )
         trial.start(Script("deliver.py", FOLLOW), "_goal:=carrot")
         trial.run(20.0)

@@ -125,20 +125,20 @@ def alarm(answer: Script) -> Any:
             right.append(round(scan.ranges[0], 3))
         was_near = is_near
 
-    with Trial("room", "_x:=1.0") as trial:
+    with Trial("arena") as trial:
         witness = trial.graph.node("witness")
         witness.subscriber("scan", LaserScan, watch)
         witness.subscriber("alarm", Float32, lambda message: got.append(round(message.data, 3)))
         trial.start(answer)
         trial.start(Script("turn.py", TURN))
         trial.run(40.0)
+        trial.expect_no_errors()
         expect(got, "There was no alarm, although the robot came close to a wall.", "compare with 1.0, and publish")
         expect(
             got == right,
             f"There were {len(got)} alarms ({_listed(got[:5])}); there should be {len(right)} ({_listed(right[:5])}).",
             "publish if this scan is near and the one before was not",
         )
-        trial.expect_no_errors()
         return trial.view()
 
 

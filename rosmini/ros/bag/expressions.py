@@ -34,9 +34,8 @@ def compile_expression(text: str) -> Callable[[str, Any, Any], Any]:
             return expression.evaluate({"topic": topic, "m": m, "t": t})
         except ExpressionError as error:
             kind = getattr(m, "_type", type(m).__name__)
-            raise FilterError(
-                f"{shown(text)} failed on a {kind} of {topic}: {error}. Test the topic first: topic == {topic!r} and "
-                "..."
-            ) from error
+            is_tested = repr(topic) in text or f'"{topic}"' in text
+            advice = "" if is_tested else " Test the topic first: topic == '...' and ..."
+            raise FilterError(f"{shown(text)} failed on a {kind} of {topic}: {error}.{advice}") from error
 
     return evaluate
