@@ -42,7 +42,7 @@ def max_speed(answer: Script) -> Any:
                     all(math.isclose(a, b) for a, b in zip(got[-1], wanted, strict=True)),
                     f"Started as `{started}`, it turned the wish {speed:g} m/s, {rate:g} rad/s into "
                     f"{got[-1][0]:g} m/s, {got[-1][1]:g} rad/s.",
-                    f'rospy.get_param("~max_speed", 0.22) is {limit:g} there',
+                    f'limit linear.x to {limit:g}, the value of "~max_speed", ahead and backwards; keep angular.z',
                 )
             view = view or trial.view()
     return view
