@@ -52,15 +52,6 @@ def test_words_are_completed(shared_kernel):
         assert word in reply["content"]["matches"], reply
 
 
-def test_below_a_traceback_stands_what_roswtf_knows(shared_kernel):
-    shared_kernel.ok("%load_ext rosmini\n%roscore\nfrom rosmini import default_graph, install\ninstall()\nimport rospy")
-    shared_kernel.ok("from std_msgs.msg import String\n_ = default_graph().node('talker').publisher('chatter', String)")
-    cell = shared_kernel.run("rospy.init_node('me')\nrospy.wait_for_message('/chater', String, timeout=2)")
-    assert len(cell.errors) == 1
-    assert cell.stdout.endswith("roswtf: ERROR Nothing in the graph is called /chater; did you mean /chatter?\n")
-    assert shared_kernel.run("1 / 0").stdout == ""
-
-
 def test_a_cell_shows_what_is_being_compiled(shared_kernel):
     shared_kernel.ok("%load_ext rosmini")
     cell = shared_kernel.ok(

@@ -136,6 +136,6 @@ def test_a_robot_is_removed_where_the_program_can(sim, graph):
 
 def test_after_the_nodes_end_everything_says_so(sim):
     sim.node.shutdown("enough")
-    for action in (sim.truth, sim.pause, sim.reset, sim.save, sim.last_scan):
+    for action in (sim.truth, sim.pause, sim.reset, sim.last_scan):
         with pytest.raises(RobotGone, match="the node /sim was shut down"):
             action()

@@ -132,5 +132,5 @@ def test_an_unconfined_xacro_needs_the_users_word(tmp_path, capsys):
         encoding="utf-8",
     )
     assert cli.main(["world", "check", str(path)]) == 1
-    assert "r.xacro:2: name 'python.type' is not defined" in capsys.readouterr().err
+    assert "r.xacro: name 'python.type' is not defined" in capsys.readouterr().err
     assert cli.main(["world", "check", "--unconfined", str(path)]) == 0
