@@ -83,7 +83,6 @@ TO_REWRITE: dict[str, set[str]] = {
     "simulation_and_stage": {"cells", "columns", "hints", "lines", "mentions", "private API", "words"},
     "gazebo": {"cells", "hints", "lines", "mentions", "private API", "words"},
     "rviz": {"columns", "private API"},
-    "rqt": {"private API"},
     "navigation_stack": {"private API"},
     "maps": {"private API"},
     "costmaps": {"private API"},
