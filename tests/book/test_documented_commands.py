@@ -73,7 +73,7 @@ rospy.init_node("talker")
 chatter = rospy.Publisher("chatter", String, queue_size=10)
 news = rospy.Publisher("news", String, queue_size=10)
 warmth = rospy.Publisher("temperature", Float32, queue_size=10)
-rospy.Service("set_bool", SetBool, lambda request: SetBoolResponse(True, "got it"))
+rospy.Service("drive", SetBool, lambda request: SetBoolResponse(True, "got it"))
 rospy.Service("fails", Empty, fail)
 rate = rospy.Rate(10)
 while not rospy.is_shutdown():
