@@ -47,7 +47,12 @@ class Replay(Shown):
 
     @property
     def recording(self) -> Any:
-        """The first recording: the times, poses, scans and commands of its robot as arrays."""
+        """The first recording: the times, poses, scans and commands of its robot as arrays.
+
+        Raises ``RosminiError`` for a bag.
+        """
+        if not self.recordings:
+            raise RosminiError("a bag has no recording: read its messages with rosbag.Bag(file).read_messages()")
         return self.recordings[0]
 
 
@@ -113,14 +118,15 @@ def replay(session: Session, line: str) -> Replay:
     given = _parsed(session, parser, line)
     bags = [word for word in given.words if word.endswith(BAGS)]
     topics = [word for word in given.words if word not in bags]
+    layers = None if EVERYTHING in topics else topics
     if bags:
-        view = _player(given)(*bags, topics=topics or None, frame=given.frame, robot=given.robot)
+        view = _player(given)(*bags, topics=layers or None, frame=given.frame, robot=given.robot)
         return _displayed(session, Replay(view=view))
     if not session.recorders:
         raise RosminiError("nothing is recorded: write %record, and let time pass with rosmini.wait(10)")
     for recorder in session.recorders:
         recorder.stop()
-    return _displayed(session, _replay(session.recorders, given, None if EVERYTHING in topics else topics))
+    return _displayed(session, _replay(session.recorders, given, layers))
 
 
 def click(session: Session, line: str) -> Click:
@@ -223,6 +229,8 @@ def _replay(recorders: Sequence[Recorder | Tape], given: Values, topics: Sequenc
 
     robots = [recorder for recorder in recorders if isinstance(recorder, Recorder)]
     if not robots:
+        if given.solid or given.words:
+            raise UsageError("turtles are flat and have no layers: write %replay without arguments")
         tapes = [recorder for recorder in recorders if not isinstance(recorder, Recorder)]
         return Replay(view=turtle_replay(*tapes), recordings=tuple(tapes))
     recordings = tuple(recorder.recording() for recorder in robots)

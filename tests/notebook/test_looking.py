@@ -44,6 +44,8 @@ def test_a_bag_is_replayed(notebook: Notebook, tmp_path: Path) -> None:
     bag = tmp_path / "drive.bag"
     notebook.ok(f"{ROBOT}\n%rosbag record --duration 1 -O {bag} /odom\nimport rosmini\nrosmini.wait(2)")
     assert "/odom" in notebook.ok(f"%replay --robot burger {bag}")
+    assert "/odom" in notebook.ok(f'run = %replay {bag} "*"')
+    assert "rosbag.Bag" in notebook.fails("run.recording")
 
 
 @pytest.mark.parametrize(
@@ -54,6 +56,7 @@ def test_a_bag_is_replayed(notebook: Notebook, tmp_path: Path) -> None:
         (f"{ROBOT}\n%show /simulater", "/simulator"),
         (f"{ROBOT}\n%show /rosout", "/simulator"),
         ("%rosrun turtlesim turtlesim_node\n%show --3d", "/turtlesim"),
+        ("%rosrun turtlesim turtlesim_node\n%record\n%replay --3d", "without arguments"),
         ('%click "2D Nav Gaol" 1 2 0', "2D Nav Goal"),
         ('%click "2D Nav Goal" 1', "yaw"),
         ("%click 1 2", "tool"),
