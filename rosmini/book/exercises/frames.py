@@ -83,6 +83,13 @@ AHEAD, SWING = 0.5, 0.4
 """Position of the carrot ahead of the robot, and its largest distance to the left [m]."""
 
 
+def edge_of(buffer: Buffer, frame: str, advice: str) -> Any:
+    """Return the edge to a frame from its parent. Raises `Wrong` if no node publishes it."""
+    edge = buffer.tree.edges.get(frame)
+    expect(edge is not None, f"No node publishes the frame {frame}.", f'child_frame_id is "{frame}"; {advice}')
+    return edge
+
+
 @exercise("carrot", praise="The carrot moves with the robot, because the robot is its parent.")
 def carrot(answer: Script) -> Any:
     """A frame ahead of the robot swings, and the robot follows it without reaching it."""
@@ -90,14 +97,7 @@ def carrot(answer: Script) -> Any:
         buffer = listen(trial)
         trial.start(answer)
         trial.run(1.0)
-        known = buffer.tree.edges.get("carrot")
-        expect(
-            known is not None,
-            "No node publishes the frame carrot.",
-            'child_frame_id is "carrot"; tf2 ignores a quaternion of zeros',
-        )
-        assert known is not None  # noqa: S101 - expect has raised
-        parent = known.newest.parent
+        parent = edge_of(buffer, "carrot", "tf2 ignores a quaternion of zeros").newest.parent
         expect(
             parent == "base_footprint",
             f"The parent of carrot is {parent}, so the robot does not carry the carrot along.",
@@ -161,13 +161,7 @@ def upside_down(answer: Script) -> Any:
         trial.start(answer)
         trial.start(Script("face.py", FACE))
         trial.run(1.0)
-        edge = buffer.tree.edges.get("flipped")
-        expect(
-            edge is not None,
-            "No node publishes the frame flipped.",
-            'child_frame_id is "flipped"; a StaticTransformBroadcaster also reaches later nodes',
-        )
-        assert edge is not None  # noqa: S101 - expect has raised
+        edge = edge_of(buffer, "flipped", "a StaticTransformBroadcaster also reaches later nodes")
         parent = edge.newest.parent
         expect(parent == "base_link", f"The parent of flipped is {parent}, not base_link.", "set header.frame_id")
         trial.run(20.0)
