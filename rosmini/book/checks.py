@@ -230,7 +230,9 @@ def expect_type(
     found: object, kinds: type | UnionType | tuple[type, ...], said: str, wanted: str, hint: str = ""
 ) -> None:
     """Expect an object of one of `kinds`; the message is "`said` a TYPE, not `wanted`."."""
-    expect(isinstance(found, kinds), f"{said} a {type(found).__name__}, not {wanted}.", hint)
+    name = type(found).__name__
+    article = "an" if name[0].lower() in "aeiou" else "a"
+    expect(isinstance(found, kinds), f"{said} {article} {name}, not {wanted}.", hint)
 
 
 def expect_number(found: object, what: str) -> float:

@@ -76,7 +76,7 @@ def _message(text: str) -> Any:
 @exercise("repaired", praise="It now declares every package that it imports, and no other.")
 def repaired(answer: object) -> None:
     """The manifest of patrol: a licence, and the three packages that it imports."""
-    expect_type(answer, str, "mended is", "a text")
+    expect_type(answer, str, "corrected is", "a text")
     expect("<license>" in str(answer), "It has no licence.", "add <license>MIT</license>")
     expect(">TODO<" not in str(answer), "TODO is not a licence.", "write <license>MIT</license>")
     package = _package(str(answer))

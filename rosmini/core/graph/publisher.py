@@ -143,6 +143,8 @@ class Publication:
         self._local = tuple(sender for sender in senders if isinstance(sender, QueuedSender))
         self._wires = tuple(sender for sender in senders if not isinstance(sender, QueuedSender))
         is_simple = len(self._local) == len(senders) == 1 and not self._latch and self._scheduler.history is None
+        if senders:
+            self.warns_unheard = False  # the warning explains that connections take a moment
         self._only = self._local[0] if is_simple else None
         self._header = None if self._only is None else self._only.header
 

@@ -34,7 +34,7 @@ def load(words: Sequence[str], packages: PackageIndex) -> Plan | Finding:
         first, *rest = str(error).splitlines()
         return Finding(
             "launch_file", "ERROR", "The launch file cannot be read:", (first, *(f" {each.strip()}" for each in rest)),
-            "The place is where reading stopped: mend it, and look again.",
+            "Reading stopped at this place: correct it, and run roswtf again.",
         )  # fmt: skip
 
 

@@ -19,14 +19,14 @@ def test_the_cheat_sheet_agrees_with_the_page_of_commands(cells):
         assert re.search(rf"[` ]{verb}[`\s]", row), f"{tool} {verb} is not in: {row}"
 
 
-def test_the_mistyped_topic_is_found_and_mended(cells):
+def test_the_mistyped_topic_is_found_and_corrected(cells):
     said = printed(cells, "cmd_vel:=cmd_val")
     assert "/cmd_vel, to which /simulator subscribes" in said
     assert "did you mean /cmd_val?" in said
-    [mended] = [
+    [corrected] = [
         cell for cell in cells if cell.cell_type == "code" and "%roswtf" in cell.source and "cmd_val" not in cell.source
     ]
-    assert "Nobody publishes" not in "".join(output.get("text", "") for output in mended.outputs)
+    assert "Nobody publishes" not in "".join(output.get("text", "") for output in corrected.outputs)
 
 
 def test_the_parameter_slows_the_robot_down(cells):

@@ -17,5 +17,5 @@ def test_the_slip_in_the_path_is_found(cells):
     said = printed(cells, "report_ws/scr")
     assert "package 'turtlebot3_ds' not found" in said
     assert "Not all paths in ROS_PACKAGE_PATH" in said
-    mended = printed(cells, "source ~/report_ws/devel")
-    assert mended.rstrip().endswith("~/report_ws/src/turtlebot3_ds")
+    corrected = printed(cells, "source ~/report_ws/devel")
+    assert corrected.rstrip().endswith("~/report_ws/src/turtlebot3_ds")

@@ -10,7 +10,7 @@ from .conftest import printed
 from .mistakes.motion_node import CORNERS, TURN
 
 
-def test_the_script_of_the_tutorials_fails_and_once_mended_never_ends(cells):
+def test_the_script_of_the_tutorials_fails_and_once_corrected_never_ends(cells):
     assert "TypeError: bad operand type for abs(): 'str'" in printed(cells, "    speed = input(")
     assert "/robot_cleaner_" in printed(cells, "%rostopic hz")
 

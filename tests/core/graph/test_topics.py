@@ -162,6 +162,18 @@ def test_what_is_published_late_is_made_when_somebody_comes_and_is_the_same(
     assert "nobody was connected" not in capfd.readouterr().err
 
 
+def test_no_warning_about_the_start_comes_after_the_last_subscriber_left(
+    graph: Graph, capfd: pytest.CaptureFixture[str]
+) -> None:
+    subscriber = graph.node("listener").subscriber("chatter", String, print)
+    publisher = connected(graph.node("talker"), "chatter", String)
+    subscriber.unregister()
+    until(graph, lambda: publisher.num_connections() == 0)
+    publisher.publish(String("too late"))
+    settle(graph)
+    assert "nobody was connected" not in capfd.readouterr().err
+
+
 def test_a_later_message_replaces_one_that_was_not_made_yet(graph: Graph) -> None:
     publisher = graph.node("talker").publisher("chatter", String, latch=True)
     publisher.publish(MessageFactory(lambda: String("old")))

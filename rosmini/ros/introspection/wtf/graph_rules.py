@@ -81,8 +81,8 @@ def unheard_topics(graph: Survey) -> Iterator[Finding]:
     if found:
         yield Finding(
             "no_publisher", "WARNING", "Nobody publishes these topics:", tuple(found),
-            "Nothing is wrong if the publisher comes later, or if you publish by hand. A name that was meant "
-            "otherwise is mended where the node starts: `old:=new`.",
+            "Nothing is wrong if the publisher comes later, or if you publish by hand. If the name is wrong, "
+            "remap it where the node starts: `old:=new`.",
         )  # fmt: skip
 
 

@@ -59,14 +59,14 @@ MODELS = ("burger", "waffle", "waffle_pi")
 def _mending(
     ends: tuple[str, ...] = ("", "/"), models: tuple[str, ...] = MODELS, own: tuple[str, ...] = ("", "localhost")
 ) -> Callable[[], Any]:
-    def to_mend(environment: dict[str, str]) -> str | None:
+    def wrong_variable(environment: dict[str, str]) -> str | None:
         if environment.get("ROS_MASTER_URI", "") not in [f"http://robot:11311{end}" for end in ends]:
             return "ROS_MASTER_URI"
         if environment.get("ROS_HOSTNAME", "") in own:
             return "ROS_HOSTNAME"
         return None if environment.get("TURTLEBOT3_MODEL") in models else "TURTLEBOT3_MODEL"
 
-    return lambda: to_mend
+    return lambda: wrong_variable
 
 
 MISTAKES: dict[str, list[Callable[[], Any]]] = {
