@@ -38,7 +38,7 @@ class ROSSerializationException(ROSException):
 
 
 class ROSInterruptException(ROSException, KeyboardInterrupt):
-    """A blocking call (sleep, wait, spin) ended because the node shuts down."""
+    """A blocking call (sleep, wait, spin) ended because the node is shutting down."""
 
 
 class ROSTimeMovedBackwardsException(ROSInterruptException):
@@ -77,7 +77,7 @@ class ServiceException(RosminiError):
 
 
 class ServiceRefused(ServiceException):
-    """A handler refuses a request, as a C++ handler does by returning false: the caller gets only this text."""
+    """Raised by a service handler to refuse a request (a C++ handler returns false); the caller gets only its text."""
 
 
 # ---- genpy's names ----
@@ -115,7 +115,7 @@ class UnknownType(RosminiError):
 
 
 class LocatedError(RosminiError):
-    """An error in ``file``, at line ``line`` (counted from 1), if these are known."""
+    """Base class of errors in a file. ``file`` and ``line`` (counted from 1) are None if they are not known."""
 
     def __init__(self, message: str, file: str | Path | None = None, line: int | None = None) -> None:
         self.message = message
@@ -197,15 +197,15 @@ _LONGEST_NAME = 300
 
 
 def _counts(letters: str, text: str) -> list[int]:
-    """Return how often each letter occurs in a text."""
+    """Return the number of occurrences in ``text`` of each distinct letter of ``letters``."""
     return [text.count(letter) for letter in dict.fromkeys(letters)]
 
 
 def nearest(name: str, candidates: Iterable[str], limit: int = 3) -> str:
-    """Return the clause "did you mean ...?" for a mistyped ``name``; empty if no candidate is similar.
+    """Return the clause "did you mean ...?" for a mistyped ``name``, with at most ``limit`` candidates.
 
-    The comparison ignores case. Names with equal last parts in different namespaces (``/scan`` and
-    ``/robot1/scan``) count as similar. The result depends only on the set of candidates, not on their order.
+    The clause is empty if no candidate is similar. The comparison ignores case. Names with equal last parts in
+    different namespaces (``/scan`` and ``/robot1/scan``) are similar. The order of the candidates has no effect.
 
     >>> nearest("/chater", ["/chatter", "/rosout"])
     'did you mean /chatter?'
@@ -218,7 +218,7 @@ def nearest(name: str, candidates: Iterable[str], limit: int = 3) -> str:
     wanted_base = wanted.rpartition("/")[2]
 
     def ratio(one: str, other: str) -> float:
-        """Return the ratio of `SequenceMatcher`, or 0 if it is certainly too small."""
+        """Return the ratio of `SequenceMatcher`, or 0 if the letters in common show that it is below 0.7."""
         if (
             not one
             or not other
@@ -242,7 +242,7 @@ def nearest(name: str, candidates: Iterable[str], limit: int = 3) -> str:
 
 
 class Hints:
-    """`nearest` for the warnings of one file. Only the first `MAX_HINTS` names get a hint: each takes milliseconds."""
+    """Limits the number of hints in the warnings about one file to `MAX_HINTS`, since each hint takes milliseconds."""
 
     MAX_HINTS = 20
 
@@ -250,7 +250,7 @@ class Hints:
         self._count = 0
 
     def __call__(self, name: str, candidates: Iterable[str]) -> str:
-        """Return the clause of `nearest`, or an empty text."""
+        """Return the clause of `nearest`, or an empty string after `MAX_HINTS` calls."""
         self._count += 1
         return nearest(name, candidates) if self._count <= self.MAX_HINTS else ""
 
@@ -314,7 +314,7 @@ def _joined(start: str, entries: Iterable[tuple[str, object]], end: str, room: i
 def short_traceback(error: BaseException) -> list[str]:
     """Return the traceback of ``error`` and of its causes as IPython shows it, without the frames of rosmini.
 
-    Other errors than rosmini's keep the frame that raised them, since it may be a bug in rosmini.
+    An error that is not a `RosminiError` keeps the frame that raised it, since it may be a bug in rosmini.
     """
     from IPython import get_ipython
 

@@ -1,7 +1,7 @@
 """Files that users and other programs provide, checked before they are read.
 
-For any path, checks do not raise anything, and reading never blocks on a pipe or fills the
-memory.
+`exists`, `is_file` and `names_in` raise nothing, whatever the path. `check` and `read` raise only `OSError`, never
+block on a pipe, and never read more than a given number of bytes.
 """
 
 from __future__ import annotations
@@ -50,7 +50,10 @@ def path_of(address: str) -> str:
 
 
 def check(path: Path, largest: int = MAX_BYTES) -> os.stat_result:
-    """Return the `stat` of a readable file. Raises `OSError` if it is missing, not a regular file, or too large."""
+    """Return the `os.stat` of a file.
+
+    Raises `OSError` if it is missing, is a folder, pipe, device or socket, or has more than `largest` bytes.
+    """
     try:
         found = os.stat(path)  # noqa: PTH116 (a path of any kind)
     except ValueError as error:  # a NUL, or a character that the file system cannot encode
@@ -64,7 +67,7 @@ def check(path: Path, largest: int = MAX_BYTES) -> os.stat_result:
 
 
 def read(path: Path, largest: int = MAX_BYTES) -> bytes:
-    """Return the bytes of a file. Raises `OSError` as `check` does."""
+    """Return the bytes of a file. Raises `OSError` if it cannot be read, and in the cases of `check`."""
     size = check(path, largest).st_size
     with open(path, "rb") as file:  # noqa: PTH123 (a path of any kind)
         data = file.read(size + 1)  # read() allocates as much memory as it is asked for

@@ -21,13 +21,13 @@ MAX_SIDE = 65_535
 """Maximum number of pixels along a side, as in SDL."""
 
 MEMORY = 250_000_000
-"""Maximum memory of the pixels and of their decoder, or of a map made of them [bytes]."""
+"""Maximum memory [bytes] for the pixels and their decoder, or for a map made from them."""
 
 BYTES = 5
 """Maximum file size per pixel [bytes]."""
 
 AT_ONCE = 100_000
-"""Maximum number of pixels of a strip."""
+"""Maximum number of pixels in a strip."""
 
 FORMATS = ("BMP", "GIF", "JPEG", "PNG", "PPM", "TGA", "TIFF", "WEBP")
 """The formats that SDL_image reads in ROS, by Pillow's names. Some of Pillow's other formats run programs."""
@@ -39,7 +39,11 @@ class ImageError(RosminiError):
 
 @contextmanager
 def opened(path: str | os.PathLike[str]) -> Iterator[Image]:
-    """Open an image for reading its pixels. Raises `ImageError`, also while reading, and `FileNotFoundError`."""
+    """Open an image for reading its pixels.
+
+    Raises `FileNotFoundError` if it is missing, and `ImageError` if it is not an image, is too large, or is broken,
+    which may only show when the caller reads the pixels.
+    """
     from PIL import Image, UnidentifiedImageError
 
     try:
@@ -71,7 +75,7 @@ def opened(path: str | os.PathLike[str]) -> Iterator[Image]:
 
 
 def _check(image: Image) -> None:
-    """Raise `ImageError` for an image that would take too much memory."""
+    """Raise `ImageError` for an image that has too many pixels or would take too much memory."""
     pixels = image.width * image.height
     text = f"it has {image.width} x {image.height} pixels in mode {image.mode}"
     if pixels > MAX_PIXELS or max(image.size) > MAX_SIDE:
@@ -85,7 +89,7 @@ def _check(image: Image) -> None:
 
 
 def _bytes(image: Image) -> int:
-    """Return the memory of a pixel [bytes]."""
+    """Return the memory that Pillow needs for a pixel [bytes]."""
     if image.mode.startswith("I;16"):
         return 2
     return 1 if image.mode in ("1", "L", "P") else 4
@@ -115,7 +119,7 @@ _BITS_PER_SAMPLE, _ROWS_PER_STRIP, _TILE_WIDTH, _TILE_HEIGHT = 258, 278, 322, 32
 
 
 def strips(image: Image) -> Iterator[tuple[int, Image]]:
-    """Yield the rows of an image from the top, a strip at a time, each with the number of its first row.
+    """Yield horizontal strips of an image from top to bottom, each with the number of its first row.
 
     Converting an image needs several times its memory; converting its strips does not.
     """

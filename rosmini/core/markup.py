@@ -45,7 +45,7 @@ class Element:
     tag: str
     attributes: dict[str, str] = field(default_factory=dict)
     text: str = ""
-    """Stripped; the texts between the children are joined."""
+    """The text between the children, joined, and without white space at its ends."""
     children: list[Element] = field(default_factory=list)
     line: int = 0
     """Counted from 1."""
@@ -72,7 +72,7 @@ class Element:
         return [child for child in self.children if child.tag in tags]
 
     def find(self, way: str) -> Element | None:
-        """Return the first element with this path (``"inertial/mass"``), or None."""
+        """Return the element at a path of tags (``"inertial/mass"``), or None; at each level the first one counts."""
         at = self
         for tag in way.split("/"):
             found = next((child for child in at.children if child.tag == tag), None)
@@ -97,7 +97,7 @@ class Element:
             yield from child.walk()
 
     def word(self, way: str, default: str = "") -> str:
-        """Return the text of the element with this path, or `default` if it is missing or empty."""
+        """Return the text of the element that `find` returns, or `default` if it is missing or empty."""
         found = self.find(way)
         return (found.text if found is not None else "") or default
 
@@ -117,7 +117,10 @@ class Element:
         return value
 
     def number(self, name: str, default: float | None = None, *, most: float = math.inf) -> float:
-        """Return a number from an attribute, or `default` if it is missing. Raises `MarkupError`."""
+        """Return a number from an attribute, or `default` if it is missing.
+
+        Raises `MarkupError` unless there is a default or a finite number, of at most `most` in absolute value.
+        """
         if default is not None and name not in self.attributes:
             return default
         return self.floats(self.attribute(name), 1, name, most=most)[0]
@@ -125,7 +128,7 @@ class Element:
     def numbers(
         self, name: str, count: int, default: tuple[float, ...] | None = None, *, most: float = math.inf
     ) -> tuple[float, ...]:
-        """Return `count` numbers from an attribute, or `default` if it is missing. Raises `MarkupError`."""
+        """Return `count` numbers from an attribute, or `default` if it is missing. Raises `MarkupError` as `number`."""
         if default is not None and name not in self.attributes:
             return default
         return self.floats(self.attribute(name), count, name, most=most)
@@ -133,9 +136,10 @@ class Element:
     def floats(
         self, text: str, count: int | None = None, what: str = "", *, most: float = math.inf
     ) -> tuple[float, ...]:
-        """Return the numbers in a text of this element, `count` or any number; all must be finite and at most `most`.
+        """Return the numbers in a text of this element: `count` of them, or any number if `count` is None.
 
-        Raises `MarkupError`, which calls them `what`, or by the tag.
+        Raises `MarkupError` unless all are finite and at most `most` in absolute value. The message calls the text
+        `what`, by default the tag.
         """
         name = what or f"<{self.tag}>"
         words = text.split()
@@ -155,7 +159,10 @@ class Element:
         return tuple(values)
 
     def flag(self, text: str, what: str = "") -> bool:
-        """Convert a text of this element: true or false, 1 or 0. Raises `MarkupError`."""
+        """Return the boolean in a text of this element: true or false in any case, or 1 or 0.
+
+        Raises `MarkupError` for any other text. The message calls the text `what`, by default the tag.
+        """
         value = {"true": True, "1": True, "false": False, "0": False}.get(text.strip().lower())
         if value is None:
             raise self.error(f"{what or f'<{self.tag}>'} is true or false, not {shown(text.strip())}")
@@ -180,7 +187,7 @@ def parse(
     *,
     late_declaration: bool = False,
 ) -> Element:
-    """Return the root of an XML text; `path` appears in errors.
+    """Return the root element of an XML text; `path` appears in errors.
 
     With `late_declaration`, comments and blank lines may precede `<?xml ...?>`, as in TinyXML, which Gazebo uses.
 
@@ -196,7 +203,7 @@ def parse(
     parser.setContentHandler(builder)
     source = xml.sax.xmlreader.InputSource(name)
     if isinstance(text, str):
-        # A str has no encoding any more, whatever its declaration says.
+        # A str is already decoded: ignore the encoding in its declaration.
         text = text.encode("utf-8", "surrogatepass")
         source.setEncoding("utf-8")
     if late_declaration:
@@ -221,7 +228,7 @@ _LATE_DECLARATION = re.compile(rb"\A((?:\xef\xbb\xbf)?\s*(?:<!--(?:(?!-->)[\s\S]
 def parse_file(
     path: str | PathLike[str], failure: type[MarkupError] = MarkupError, *, late_declaration: bool = False
 ) -> Element:
-    """Return the root of an XML file. Raises as `parse` does, and if the file cannot be read."""
+    """Return the root element of an XML file. Raises `failure` as `parse` does, and if the file cannot be read."""
     try:
         text = read(path)
     except OSError as error:
@@ -267,7 +274,7 @@ class _Builder(xml.sax.handler.ContentHandler):
 
 
 def _reason(message: str, column: int, text: bytes, builder: _Builder) -> str:
-    """Return the parser's error, in helpful words."""
+    """Return an explanation of the parser's error `message`."""
     if not text.strip():
         return "this is empty, there is no XML in it"
     if message == "mismatched tag" and builder.open:

@@ -44,15 +44,18 @@ def check_base_name(name: str, what: str = "node name") -> str:
 
 
 def is_legal_name(name: str | None) -> bool:
-    """Return whether ``rosgraph.names`` calls ``name`` legal: a name with '//' works, but is not legal.
+    """Return whether ``name`` is legal, as ``rosgraph.names`` does: False for None and for a name with '//'.
 
-    Raises ``TypeError`` for a value that is not a str.
+    Raises ``TypeError`` for any other value that is not a str.
     """
     return name is not None and GRAPH_NAME.fullmatch(name) is not None and "//" not in name
 
 
 def is_legal_base_name(name: str | None) -> bool:
-    """Return whether ``name`` is a legal base name, without a namespace. Raises ``TypeError`` if it is not a str."""
+    """Return whether ``name`` is a legal base name, without a namespace; False for None.
+
+    Raises ``TypeError`` for any other value that is not a str.
+    """
     return name is not None and BASE_NAME.fullmatch(name) is not None
 
 
@@ -266,7 +269,7 @@ class Remappings:
         return self.special.get("__log")
 
     def apply(self, resolved: str, node_name: str) -> str:
-        """Return the global name that ``resolved`` is remapped to for ``node_name``."""
+        """Return the global name that replaces ``resolved`` in the node ``node_name``; itself if no rule applies."""
         if not self.names:
             return resolved
         table = self._resolved.get(node_name)

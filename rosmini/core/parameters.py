@@ -10,7 +10,7 @@
 `rosmini.core.dynamic_reconfigure` changes them while the node runs.
 
 The type of a field is bool, int, float or str; `tuple[T, ...]` for a list; a class of parameters for a namespace or,
-in a list, for dictionaries; or a union of these. A parameter whose type allows None may be missing.
+in a list, for dictionaries; or a union of these. If the type allows None, the default may be None.
 
 Numbers are converted as in roscpp's `ros::param`: an int to a float, and a float to the nearest int. The
 original nodes silently ignore a value of another type and use the default; here it is an error.
@@ -63,7 +63,7 @@ class Place:
     label: str
     owner: str
     warn: Callable[[str], object]
-    """Called with a warning about an unknown name."""
+    """Called with the text of each warning."""
 
     def inside(self, name: str) -> Place:
         """Return a namespace inside this one."""
@@ -72,13 +72,13 @@ class Place:
 
 @dataclass(frozen=True)
 class Parameters:
-    """Base class of a node's parameters."""
+    """Base class of the parameters of a node: a frozen data class whose fields are declared with `parameter`."""
 
     allowed: ClassVar[tuple[str, ...]] = ()
     """Additional names that are allowed, because other code reads them."""
 
     strict: ClassVar[bool] = False
-    """If True, an unknown name is an error; by default only a warning, as the original nodes ignore it."""
+    """If True, an unknown name is an error; otherwise there is a warning, since the original nodes ignore the name."""
 
     dynamic: ClassVar[bool] = False
     """If True, a `Server` of dynamic_reconfigure offers the fields of this class: it limits values to their ranges,
@@ -93,10 +93,10 @@ class Parameters:
 
     @classmethod
     def read(cls, node: Node, namespace: str = "~", /, **given: Any) -> Self:
-        """Return the parameters in a namespace, by default the node's private one; those `given` take precedence.
+        """Return the parameters in a namespace, by default the node's private one, without changing the server.
 
-        Raises `ParameterError`, which names the parameter, for a wrong type or value, and for an
-        unknown name if the class is `strict`; otherwise the node warns of it. Does not change the Parameter Server.
+        Values in `given` take precedence unless they are None. Raises `ParameterError`, which names the parameter,
+        for a wrong type or value, and for an unknown name if the class is `strict`; otherwise the node logs a warning.
         """
         name = node.resolve_parameter(namespace)
         label = "~" if namespace == "~" else namespace.rstrip("/") + "/"
@@ -105,7 +105,7 @@ class Parameters:
 
     @classmethod
     def table(cls, label: str = "~") -> list[tuple[str, str, str, str, str, str]]:
-        """Return name (after `label`), type, default, range, unit and meaning of each parameter, as declared."""
+        """Return a row for each parameter: name (with `label` before it), type, default, range, unit and meaning."""
         rows = []
         for declared, kind in declared_fields(cls):
             about = declared.metadata
@@ -203,7 +203,7 @@ def rounded(value: Any) -> Any:
 
 
 def limited_value(value: Any, low: Any, high: Any) -> Any:
-    """Return `value` limited to a range, whose bounds may be None."""
+    """Return `value`, or the nearer bound (converted to the value's type) if it is out of range; None is no bound."""
     if high is not None and value > high:
         return type(value)(high)
     if low is not None and value < low:
@@ -274,7 +274,7 @@ def _spelled_options(kind: Any) -> Iterator[str]:
 
 
 def _listed(default: Any) -> str:
-    """Return a default in YAML."""
+    """Return a default as YAML."""
     if isinstance(default, tuple):
         return f"[{', '.join(map(_listed, default))}]"
     if isinstance(default, Parameters):

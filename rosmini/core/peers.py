@@ -1,4 +1,4 @@
-"""Interfaces for talking to the Master, in the name of a node, and to each node's slave API."""
+"""Interfaces for calling the Master on behalf of a node, and the slave API of each node."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ Triple = list[Any]
 
 
 class Asker(Protocol):
-    """The Master as one caller sees it."""
+    """Calls methods of the Master on behalf of one caller."""
 
     def call(self, method: str, *arguments: Any) -> Triple:
-        """Return the Master's response. Raises ``MasterUnreachable``."""
+        """Return the Master's response: code, status and value. Raises ``MasterUnreachable``."""
 
     def ask(self, method: str, *arguments: Any) -> Any:
         """Return the value of the response. Raises ``ROSException`` if the code is not 1, and ``MasterUnreachable``."""
@@ -26,20 +26,20 @@ class Slaves(Protocol):
     """The slave APIs of all nodes."""
 
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:
-        """Call a method of a node's slave API. Raises ``TransportException`` if there is no response."""
+        """Return the response of a node's slave API. Raises ``TransportException`` if there is none."""
 
     def probe_service(self, uri: str, header: dict[str, str]) -> dict[str, str]:
         """Return the header sent by a service's server. Raises ``TransportException`` if there is no response."""
 
 
 class Clock(Protocol):
-    """The clock of requests."""
+    """The graph's clock."""
 
     def now_ns(self) -> int:
         """Return the time in nanoseconds."""
 
     def sleep_until(self, when_ns: int, reason: str | None = None) -> None:
-        """Block until that time."""
+        """Block until the given time [ns]; ``reason`` says what the caller waits for."""
 
 
 class Peers(Protocol):
@@ -58,7 +58,7 @@ class Peers(Protocol):
         """The clock."""
 
     def ask_as(self, caller_id: str) -> Asker:
-        """Return the Master as seen by a caller of this name."""
+        """Return an interface for calling the Master on behalf of ``caller_id``."""
 
 
 def host_of(uri: str) -> str:

@@ -32,7 +32,7 @@ class PluginError(RosminiError):
 
 
 class Plugin:
-    """Base class of interfaces."""
+    """Base class of interfaces. Each interface keeps a list of its plugins."""
 
     plugin_name: ClassVar[str] = ""
     """The plugin's ROS name, `package/Class`; empty for an interface."""
@@ -58,7 +58,7 @@ class Plugin:
     def named(cls, name: str) -> type[Self]:
         """Return a plugin's class by its ROS name; `package::Class` is the same as `package/Class`.
 
-        Raises `PluginError`, with similar names and a list of all, if there is none.
+        Raises `PluginError`, with similar names and a list of all, if there is none or if it cannot be imported.
         """
         wanted = _canonical(name)
         if wanted not in cls._plugins:

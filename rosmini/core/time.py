@@ -1,8 +1,8 @@
 """ROS's ``time`` and ``duration``: two integers, seconds and nanoseconds.
 
-The rules are exactly genpy's (http://wiki.ros.org/rospy/Overview/Time): which operands may be combined and
-the result, the canonical form (0 <= nsecs < 1e9, so that -0.5 s is ``Duration(-1, 500000000)``), and mutable
-fields (``msg.header.stamp.secs = 3`` works; call :meth:`TVal.canon` if a field is out of range).
+The classes follow genpy (http://wiki.ros.org/rospy/Overview/Time) in the types of operands and results, in the
+canonical form (0 <= nsecs < 1e9, so -0.5 s is ``Duration(-1, 500000000)``), and in their mutable fields
+(``msg.header.stamp.secs = 3`` works; call :meth:`TVal.canon` if a field is out of range).
 
 There is no ``now()`` here: only a node knows the time.
 """
@@ -18,13 +18,13 @@ NSECS_PER_SEC = 1_000_000_000
 class TVal:
     """Base class of :class:`Time` and :class:`Duration`.
 
-    ``secs`` is a number of seconds; ``nsecs`` adds nanoseconds, and is only allowed with an integer ``secs``.
+    ``secs`` is an integer or fractional number of seconds. ``nsecs`` is a number of nanoseconds to add.
     Raises ``ValueError`` for fractional seconds together with nanoseconds.
     """
 
     __slots__ = ("nsecs", "secs")
     _slot_types: ClassVar[list[str]] = ["int32", "int32"]  # tools print times like messages
-    _peer: ClassVar[type[TVal]]  # what a value may be compared with; set below each class, which has no name before
+    _peer: ClassVar[type[TVal]]  # the class of comparable values; set after each class is defined
 
     secs: int
     nsecs: int
@@ -78,7 +78,7 @@ class TVal:
         self.secs += carry
 
     def is_zero(self) -> bool:
-        """True if both fields are zero."""
+        """Return whether both fields are zero."""
         return self.secs == 0 and self.nsecs == 0
 
     def to_sec(self) -> float:

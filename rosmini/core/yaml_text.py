@@ -24,12 +24,13 @@ MAX_DIGITS = 1000
 """Maximum length of a number [characters]."""
 
 Failure = Callable[[str, str, int | None], Exception]
-"""Makes an error from a message, the name of the source, and a line."""
+"""A function that returns an exception for a message, the name of the source, and a line (None if not known)."""
 
 
 SHORT, SHORT_WITH_TABS = 10_000, 100_000
-"""Maximum length of a text for PyYAML's pure-Python parser [characters]: it is ten times as slow as libyaml, but has
-better error messages, and rejects tabs as ROS does.
+"""Maximum length of a text [characters], without and with tabs, for PyYAML's pure-Python parser.
+
+That parser is ten times as slow as libyaml, but has better error messages, and rejects tabs as ROS does.
 """
 
 
@@ -78,7 +79,7 @@ class Loader(Composer, SafeConstructor, Resolver):
         return super().compose_node(parent, index)
 
     def construct_object(self, node: Any, deep: bool = False) -> Any:
-        """Construct the value of a node; errors get its line."""
+        """Return the value of a node. Raises ``MarkedYAMLError``, which contains its line, if the value is invalid."""
         try:
             return super().construct_object(node, deep)
         # Raised for 2026-13-45, .e999, a list as a key, !!float "", !!bool x, !!timestamp 1.
@@ -88,7 +89,7 @@ class Loader(Composer, SafeConstructor, Resolver):
             raise yaml.MarkedYAMLError(problem=f"{what}: {error}", problem_mark=node.start_mark) from error
 
     def construct_mapping(self, node: Any, deep: bool = False) -> Any:
-        """Construct a mapping. Refuse many different keys with the same hash, which would take quadratic time."""
+        """Return a mapping. Raises ``MarkedYAMLError`` for many keys with the same hash, which take quadratic time."""
         if isinstance(node, yaml.MappingNode):
             self.flatten_mapping(node)
             keys = [key for key, _ in node.value if key.tag != "tag:yaml.org,2002:str"]
@@ -102,7 +103,7 @@ class Loader(Composer, SafeConstructor, Resolver):
         return value if isinstance(value, Hashable) else None
 
     def construct_yaml_int(self, node: Any) -> Any:
-        """Construct an integer.
+        """Return an integer.
 
         Raises ``MarkedYAMLError`` for more than `MAX_DIGITS` characters, because conversion takes quadratic time.
         """
@@ -118,7 +119,10 @@ Loader.add_constructor("tag:yaml.org,2002:int", Loader.construct_yaml_int)  # ty
 def documents(
     text: str, source: str, failure: Failure, loader: type[Loader] = Loader
 ) -> Iterator[tuple[Any, yaml.Node]]:
-    """Yield the documents in a text, as values and as nodes. Raises `failure(...)` with `source` and a line."""
+    """Yield the value and the node of each document in a text.
+
+    Raises `failure(message, source, line)` for invalid YAML, and for documents that are too large or too deep.
+    """
     reading: Loader | None = None
     try:
         reading = loader(text)
@@ -137,12 +141,15 @@ def documents(
 
 
 def line_of(node: yaml.Node | None) -> int | None:
-    """Return the line of a node, counted from 1."""
+    """Return the line of a node, counted from 1, or None if it is not known."""
     return None if node is None or node.start_mark is None else node.start_mark.line + 1
 
 
 def children(node: yaml.Node) -> Iterator[tuple[str, yaml.Node, yaml.Node]]:
-    """Yield the path of each value in a node (``/key``, ``[0]``), the node with its line, and the value's node."""
+    """Yield (path, position, value) of each direct child: the path is ``/key`` or ``[0]``, the others are nodes.
+
+    The position is the node whose line to report: the key in a mapping, the value in a list.
+    """
     if isinstance(node, yaml.MappingNode):
         for key, value in node.value:
             yield f"/{key.value if isinstance(key, yaml.ScalarNode) else '?'}", key, value
@@ -161,7 +168,7 @@ def _no_yaml(error: yaml.MarkedYAMLError | yaml.reader.ReaderError, source: str,
 
 
 def _refuse_endless(node: yaml.Node, source: str, failure: Failure) -> None:
-    """Refuse a document that contains itself, or that aliases expand beyond the limit."""
+    """Raise `failure(...)` if a document contains itself, or more than `MAX_VALUES` values with aliases expanded."""
     sizes: dict[int, int] = {}
     open_nodes: set[int] = set()
 

@@ -1,6 +1,6 @@
 """Actions: long-running goals that report progress and can be cancelled (http://wiki.ros.org/actionlib).
 
-This is the object API, on a :class:`rosmini.core.graph.Node`. Scripts import the same in rospy's style as
+Clients and servers take a :class:`rosmini.core.graph.Node`. Scripts import the same classes in rospy's style as
 ``actionlib``: :mod:`rosmini.ros.rospy.aliases.actionlib`. The two state machines do not depend on nodes; they are in
 :mod:`~rosmini.core.actionlib.client_machine` and :mod:`~rosmini.core.actionlib.server_goal_handle`.
 """

@@ -33,7 +33,7 @@ def new_goal_id(node: Node, now: Time) -> str:
 
 
 def queue_size_of(node: Node, parameter: str, default: int | None) -> int | None:
-    """Return the queue size set by actionlib's parameter; a negative value means the default."""
+    """Return the queue size set by a parameter of actionlib, or ``default`` if it is missing or negative."""
     size = node.get_param(parameter, -1, expect=int)
     return default if size < 0 else int(size)
 
@@ -74,7 +74,7 @@ class ClientGoalHandle:
         return self.machine.state if self._following else CommState.LOST
 
     def get_goal_status(self) -> Status:
-        """Return the status that the server reported last; ``PENDING`` before its first report."""
+        """Return the status that the server reported last; ``PENDING`` before that, ``LOST`` if it is invalid."""
         return Status(self.machine.status) if self.machine.status in _STATUSES else Status.LOST
 
     def get_goal_status_text(self) -> str:
@@ -86,7 +86,7 @@ class ClientGoalHandle:
         return self._result
 
     def get_terminal_state(self) -> Status:
-        """Return how the goal ended; before its end, log a warning and return ``LOST``."""
+        """Return the final status of the goal; before its end, log a warning and return ``LOST``."""
         client, status = self._client, self.get_goal_status()
         if self.machine.state is not CommState.DONE:
             client.node.logwarn(f"goal {self.id} has not ended: its client is {self.machine.state.name}")
@@ -134,7 +134,7 @@ class ClientGoalHandle:
             )
 
     def finish(self, action_result: Any) -> None:
-        """Handle the result. Called by the client."""
+        """Handle the action result, which contains the goal's final status. Called by the client."""
         if self.machine.state is not CommState.DONE:
             self._result = action_result.result
         self._try(self.machine.finish, action_result.status)
@@ -146,7 +146,7 @@ class ClientGoalHandle:
             self._client.node.logerr(f"goal {self.id}: {error}")
 
     def feed(self, feedback: Any) -> None:
-        """Handle feedback. Called by the client."""
+        """Pass feedback to the callback unless the goal is done. Called by the client."""
         if self.machine.state is not CommState.DONE:
             self._run_callback(self._feedback_cb, "feedback", self, feedback)
 
@@ -232,7 +232,7 @@ class ActionClient:
         self._goals.pop(handle.id, None)
 
     def send_cancel(self, stamp: Time, goal_id: str) -> None:
-        """Ask the server to cancel the goal ``goal_id``, all goals sent up to ``stamp``, or with both empty all."""
+        """Ask the server to cancel the goal ``goal_id`` and all goals sent up to ``stamp``; if both are empty, all."""
         message = self._cancel.message_class()
         message.stamp, message.id = stamp, goal_id
         self._cancel.publish(message)
@@ -248,9 +248,9 @@ class ActionClient:
     # -- the server ----------------------------------------------------------------------------------------------
 
     def wait_for_server(self, timeout: Timeout = None) -> bool:
-        """Block until a server is running and all five topics are connected at both ends.
+        """Block until a server is running and all five topics are connected at both ends; return True then.
 
-        Returns False after ``timeout`` (None or 0: no limit).
+        Returns False after ``timeout`` (None or 0: no limit), or if the node shuts down first.
         """
         node = self.node
         waiter = node.waiter(f"an action server on {self.ns}")
@@ -279,8 +279,8 @@ class ActionClient:
     def _wait_until_counted(self) -> bool:
         """Wait until the server counts this client among its subscribers; return whether it is still connected.
 
-        rospy answers a subscriber a moment before it sends to it. A message published in between is lost; it may be the
-        result of a goal that ended at once.
+        rospy accepts a subscriber a moment before it sends messages to it. A message published in between is lost; it
+        may be the result of a goal that ended at once.
         """
         scheduler = self.node.scheduler
         for _ in range(MAX_POLLS):
@@ -290,7 +290,7 @@ class ActionClient:
         return self._connected()
 
     def _is_counted(self) -> bool:
-        """Ask the server's node whether it sends to this client."""
+        """Return whether the server's node reports that it sends to this client; True if it does not respond."""
         node = self.node
         wanted = {end.topic for end in (self._status, self._result, self._feedback)}
         links = node.subscriptions[self._status.topic].connections.values()
@@ -298,7 +298,7 @@ class ActionClient:
         try:
             code, _, rows = node.graph.transport.call(uri, "getBusInfo", node.name)
         except TransportException:
-            return True  # the node has gone or does not answer: nothing to wait for
+            return True  # the node has gone or does not respond: there is nothing to wait for
         return code != 1 or wanted <= {row[4] for row in rows if row[1:3] == [node.name, "o"]}
 
     def _disconnected(self, peer: str) -> None:

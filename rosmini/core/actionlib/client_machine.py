@@ -1,6 +1,6 @@
 """The client's state machine, driven by the server's reports (http://wiki.ros.org/actionlib/DetailedDescription).
 
-It does no I/O: it takes statuses and returns states. The server publishes a goal's status only now and then, so a
+It does no I/O: it takes statuses and returns states. The server publishes the status of a goal periodically, so a
 client may miss some: if it receives ``SUCCEEDED`` while ``PENDING``, it passes through ``ACTIVE`` first.
 :data:`CLIENT_TRANSITIONS` lists all of these paths.
 
@@ -106,7 +106,10 @@ class ClientMachine:
             self._on_transition(state)
 
     def hear(self, status: int, text: str = "") -> None:
-        """Handle a reported status. Raises ``IllegalTransition``; does nothing once the goal is done."""
+        """Handle a reported status; does nothing once the goal is done.
+
+        Raises ``IllegalTransition`` if the protocol does not allow the status in this state.
+        """
         if self.state is CommState.DONE:
             return
         self.status, self.text = status, text
@@ -114,7 +117,7 @@ class ClientMachine:
             self._enter(state)
 
     def miss(self) -> bool:
-        """Handle a list of goals without this one; return True if the goal is therefore lost."""
+        """Handle a status list that lacks this goal; return whether the goal is now lost."""
         if self.state in _MAY_BE_UNHEARD:
             return False
         self.status = Status.LOST
@@ -124,7 +127,7 @@ class ClientMachine:
     def finish(self, status: int, text: str = "") -> None:
         """Handle the result, which contains the final status.
 
-        May raise ``IllegalTransition``; the goal is done in any case.
+        Raises ``IllegalTransition`` for a second result, or a status not allowed here; the goal is done in any case.
         """
         if self.state is CommState.DONE:
             raise IllegalTransition(

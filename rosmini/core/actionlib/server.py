@@ -1,7 +1,7 @@
 """Action servers with goal handles: http://wiki.ros.org/actionlib.
 
-The server decides the outcome of each goal, and publishes the list of its goals on ``status``: after each change, and
-five times a second.
+The server decides the outcome of each goal. It publishes the list of its goals on ``status`` after each change, and
+periodically (by default at 5 Hz).
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ STATUS_LIST_TIMEOUT = 5.0
 """How long a finished goal stays in the list [s], so that every client learns of its end."""
 
 BATCH_DIVISOR = 16
-"""A list of n goals is published after n/16 changes at most; after each change if no other work is due."""
+"""A list of n goals is published after at most n / BATCH_DIVISOR changes, and once there is no other work to do."""
 
 CANCELLED_BEFORE = "it was sent at or before the time up to which goals were cancelled"
 """Text for a goal that arrives after it was cancelled."""
@@ -88,7 +88,7 @@ class ActionServer:
         self.cancel_callback = cancel_cb
         self._numpy = numpy
         self.lock: AbstractContextManager[Any] = nullcontext()
-        """Held while an incoming goal or cancellation is handled; scripts get a lock here (actionlib's ``lock``)."""
+        """Held while an incoming goal or cancellation is handled. Only servers in rospy's style set a real lock."""
         self.status_list: list[StatusTracker] = []
         self._by_id: dict[str, StatusTracker] = {}
         self._unpublished = 0
@@ -171,13 +171,13 @@ class ActionServer:
     # -- outgoing messages ---------------------------------------------------------------------------------------
 
     def complain(self, error: ActionException) -> None:
-        """Raise a user's error if the server is strict; otherwise log it, as rospy does. Called by the handles."""
+        """Raise ``error`` if the server is strict; otherwise log it, as rospy does. Called by the handles."""
         if self.strict:
             raise error
         self.node.logerr(error)
 
     def publish_status(self) -> None:
-        """Publish the list of goals now, without those that have been over for long enough."""
+        """Publish the list of goals now, without those that ended more than ``status_list_timeout`` ago."""
         now = self.node.now()
         self._drop_stale(now)
         self._unpublished = 0
@@ -189,8 +189,8 @@ class ActionServer:
     def publish_change(self) -> None:
         """Publish the list of goals after a change: at once, or, if the list is long, together with further changes.
 
-        The cost of each publication grows with the length of the list. By publishing after a fixed share of the list
-        has changed, the cost per goal does not depend on the number of goals.
+        The cost of each publication grows with the length of the list. The list is therefore published after a fixed
+        share of it has changed, so that the cost per goal does not depend on the number of goals.
         """
         self._unpublished += 1
         if self._unpublished * BATCH_DIVISOR >= len(self.status_list):
@@ -205,7 +205,7 @@ class ActionServer:
             self.publish_status()
 
     def _drop_stale(self, now: Time) -> None:
-        """Drop the goals that have been over for long enough."""
+        """Drop the goals that ended more than ``status_list_timeout`` before ``now``."""
         limit = now.to_nsec() - self.status_list_timeout.to_nsec()
         if limit <= self._stale_from:
             return
@@ -247,7 +247,7 @@ class ActionServer:
         return self.handle_class(tracker, self, tracker.handle_tracker)
 
     def internal_goal_callback(self, action_goal: Any) -> None:
-        """Handle a message on ``goal``."""
+        """Handle a message on ``goal``: add the goal to the list, and pass its handle to the goal callback."""
         with self.lock:
             self._take(action_goal)
 
@@ -279,7 +279,7 @@ class ActionServer:
             self.end(known)
 
     def internal_cancel_callback(self, request: Any) -> None:
-        """Handle a message on ``cancel``."""
+        """Handle a message on ``cancel``: pass the handle of each matching goal to the cancel callback."""
         with self.lock:
             self._cancel(request)
 

@@ -53,7 +53,7 @@ SERVER_TRANSITIONS: dict[GoalEvent, dict[Status, Status]] = {
 
 
 def next_status(status: Status, event: GoalEvent) -> Status:
-    """Return the status of a goal after ``event``. Raises ``IllegalTransition``."""
+    """Return the status of a goal after ``event``. Raises ``IllegalTransition`` if ``status`` does not allow it."""
     allowed = SERVER_TRANSITIONS[event]
     if status in allowed:
         return allowed[status]
@@ -69,8 +69,8 @@ class ServerGoalHandle:
     """One goal at the server: its message, its status, and methods to decide its outcome.
 
     An illegal transition (:mod:`rosmini.core.actionlib.server_goal_handle`) raises ``IllegalTransition``, and a
-    transition of a handle without a goal raises ``ActionException``. A server in rospy's style logs an error instead,
-    as rospy does.
+    transition of a handle without a goal raises ``ActionException``. A server that is not strict logs an error
+    instead, as rospy does. The methods that end the goal publish ``result``, or an empty one if it is None.
     """
 
     def __init__(
@@ -134,15 +134,15 @@ class ServerGoalHandle:
         self._step(GoalEvent.ACCEPT, text)
 
     def set_rejected(self, result: Any = None, text: str = "") -> None:
-        """Reject the goal before it becomes active."""
+        """Reject the goal, which must not have been accepted yet: it becomes ``REJECTED``."""
         self._step(GoalEvent.REJECT, text, result)
 
     def set_succeeded(self, result: Any = None, text: str = "") -> None:
-        """Report that the goal is reached."""
+        """Report that the goal has been reached: it becomes ``SUCCEEDED``."""
         self._step(GoalEvent.SUCCEED, text, result)
 
     def set_aborted(self, result: Any = None, text: str = "") -> None:
-        """Report that the goal cannot be reached."""
+        """Report that the goal cannot be reached: it becomes ``ABORTED``."""
         self._step(GoalEvent.ABORT, text, result)
 
     def set_canceled(self, result: Any = None, text: str = "") -> None:

@@ -16,11 +16,10 @@ if TYPE_CHECKING:
 
 
 class SimpleActionClient:
-    """Sends goals and tracks the latest.
+    """Sends goals to an action server, and tracks only the latest one.
 
     Arguments and errors are those of ``ActionClient``. With ``strict`` (the graph's setting by default) a query
-    before the first goal raises ``ActionException``; otherwise it is logged as an error, as in
-    rospy.
+    before the first goal raises ``ActionException``; otherwise an error is logged, as in rospy.
     """
 
     def __init__(self, node: Node, ns: str, ActionSpec: Any, *, numpy: bool = True, strict: bool | None = None) -> None:
@@ -35,9 +34,9 @@ class SimpleActionClient:
         self._waiting: list[Waiter] = []
 
     def wait_for_server(self, timeout: Timeout = None) -> bool:
-        """Block until a server is running and all five topics are connected.
+        """Block until a server is running and all five topics are connected; return True then.
 
-        Returns False after ``timeout`` (None or 0: no limit).
+        Returns False after ``timeout`` (None or 0: no limit), or if the node shuts down first.
         """
         return self.action_client.wait_for_server(timeout)
 
@@ -80,9 +79,9 @@ class SimpleActionClient:
         return self.get_state()
 
     def wait_for_result(self, timeout: Timeout = None) -> bool:
-        """Block until the goal has ended and ``done_cb`` has returned.
+        """Block until the goal has ended and ``done_cb`` has returned; return True then.
 
-        Returns False after ``timeout`` (None or 0: no limit).
+        Returns False after ``timeout`` (None or 0: no limit), or if the node shuts down first.
         """
         if self.gh is None:
             self._complain("wait_for_result() was called before any goal was sent")

@@ -1,4 +1,4 @@
-"""The action server that works on one goal at a time; a new goal preempts it (DetailedDescription of actionlib)."""
+"""The action server that works on one goal at a time: http://wiki.ros.org/actionlib/DetailedDescription."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ ACCEPTED_TEXT = "This goal has been accepted by the simple action server"
 
 
 class SimpleActionServer:
-    """Works on one goal at a time.
+    """An action server that works on one goal at a time.
 
-    With ``execute_cb``, ``execute_cb(goal)`` runs once for each goal, in its own lane, and may block (sleep, wait,
-    call services). It checks :meth:`is_preempt_requested` regularly, and ends with :meth:`set_succeeded`,
-    :meth:`set_aborted` or :meth:`set_preempted`. Without it, register a callback with ``register_goal_callback``,
-    called when :meth:`accept_new_goal` can accept a goal, and one with ``register_preempt_callback``, called when the
-    goal should stop.
+    If you pass ``execute_cb``, ``execute_cb(goal)`` runs for each accepted goal, in a lane of its own, and may block
+    (sleep, wait, call services). It must check :meth:`is_preempt_requested` regularly, and end the goal with
+    :meth:`set_succeeded`, :meth:`set_aborted` or :meth:`set_preempted`. Otherwise, register one callback with
+    ``register_goal_callback``, called when :meth:`accept_new_goal` can accept a goal, and one with
+    ``register_preempt_callback``, called when the goal should stop.
 
     A new goal requests preemption of the current one and waits for its end; only the newest waiting goal is kept. The
     other arguments are those of :class:`~rosmini.core.actionlib.ActionServer`.
@@ -73,7 +73,7 @@ class SimpleActionServer:
             self.start()
 
     def start(self) -> None:
-        """Open the five topics, if ``auto_start`` is False."""
+        """Open the five topics; only needed if ``auto_start`` is False."""
         self.action_server.start()
 
     def stop(self) -> None:
@@ -81,10 +81,7 @@ class SimpleActionServer:
         self.action_server.stop()
 
     def register_goal_callback(self, cb: Callable[[], object]) -> None:
-        """Call ``cb()`` when a new goal can be accepted.
-
-        With ``execute_cb`` this has no effect but a warning.
-        """
+        """Call ``cb()`` when a new goal can be accepted. On a server with ``execute_cb``, only log a warning."""
         if self.execute_callback is not None:
             self.node.logwarn(
                 f"{self.action_server.ns} has an execute callback, which gets the goals: the goal callback is not "
@@ -133,19 +130,19 @@ class SimpleActionServer:
     # -- ending the current goal ---------------------------------------------------------------------------------
 
     def set_succeeded(self, result: Any = None, text: str = "") -> None:
-        """Report that the goal is reached."""
+        """Report that the current goal has been reached."""
         self._current("set_succeeded", result, text)
 
     def set_aborted(self, result: Any = None, text: str = "") -> None:
-        """Report that the goal cannot be reached."""
+        """Report that the current goal cannot be reached."""
         self._current("set_aborted", result, text)
 
     def set_preempted(self, result: Any = None, text: str = "") -> None:
-        """Report that the goal was stopped as requested."""
+        """Report that the current goal was stopped as requested."""
         self._current("set_canceled", result, text)
 
     def publish_feedback(self, feedback: Any) -> None:
-        """Publish progress."""
+        """Publish feedback on the current goal, a message such as ``FibonacciFeedback``."""
         self._current("publish_feedback", feedback)
 
     def get_default_result(self) -> Any:
@@ -167,7 +164,7 @@ class SimpleActionServer:
     # -- incoming messages ---------------------------------------------------------------------------------------
 
     def internal_goal_callback(self, goal: ServerGoalHandle) -> None:
-        """Handle an incoming goal."""
+        """Handle an incoming goal: it replaces the waiting goal, and requests preemption of the active one."""
         stamp = goal.get_goal_id().stamp
         rivals = [other for other in (self.current_goal, self.next_goal) if other.goal is not None]
         if any(stamp < other.get_goal_id().stamp for other in rivals):
@@ -184,7 +181,7 @@ class SimpleActionServer:
             self._lane.submit(self._execute)
 
     def internal_preempt_callback(self, goal: ServerGoalHandle) -> None:
-        """Handle an incoming cancellation."""
+        """Handle a request to cancel the current or the waiting goal."""
         if goal == self.current_goal:
             self._request_preemption()
         elif goal == self.next_goal:

@@ -1,4 +1,4 @@
-"""Common parts of clients and servers: the types of an action, ids and entries of goals, and timeouts."""
+"""Common parts of clients and servers: the types of an action, ids and records of goals, and timeouts."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class ActionTypes(NamedTuple):
 
     @classmethod
     def of(cls, spec: Any) -> ActionTypes:
-        """Return the types of the action class ``spec``. Raises ``ActionException`` for anything else."""
+        """Return the types of the action class ``spec``. Raises ``ActionException`` if it is not an action class."""
         try:
             action = spec()
             parts = [type(getattr(action, f"action_{part}")) for part in ("goal", "result", "feedback")]
@@ -76,10 +76,10 @@ class GoalIDGenerator:
 
 
 class StatusTracker:
-    """One goal in a server's list: its message, its status, and the time it ended.
+    """A server's record of one goal: its message, its status, and the time it ended.
 
-    Made from an action goal (``FibonacciActionGoal``), which is ``PENDING`` and gets an id and a stamp if it has none;
-    or from an id and a status, for a goal that was cancelled before it arrived.
+    Create it either from an action goal (``FibonacciActionGoal``), which becomes ``PENDING`` and gets an id and a stamp
+    if it has none, or from an id and a status, for a goal that was cancelled before it arrived.
     """
 
     def __init__(
@@ -103,7 +103,7 @@ class StatusTracker:
 
 
 Timeout = float | Duration | None
-"""Seconds; None and zero (rospy's default) mean no limit."""
+"""A timeout, as a number of seconds or a duration; None and zero (rospy's default) mean no limit."""
 WAIT_AFTER_SHUTDOWN_NS = 10_000_000
 """Duration of a wait on a node that has been shut down [ns]."""
 
@@ -117,9 +117,9 @@ def seconds_of(timeout: Timeout) -> float | None:
 def wait_on(node: Node, waiter: Waiter, timeout: Timeout, holds: Callable[[], bool]) -> bool:
     """Block until ``waiter`` is woken, for at most ``timeout`` of the node's time; return ``holds()``.
 
-    If the node shuts down meanwhile, the wait ends, as in rospy, and returns ``holds()``. A wait that begins after
-    the shutdown lasts ``WAIT_AFTER_SHUTDOWN_NS``: a loop around it (``while not client.wait_for_server(timeout)``)
-    does not see the shutdown of its node, and the thread that ends the loop needs a turn.
+    If the node shuts down meanwhile, the wait ends, as in rospy. A wait that begins after the shutdown lasts
+    ``WAIT_AFTER_SHUTDOWN_NS``: a loop around it (``while not client.wait_for_server(timeout)``) does not notice the
+    shutdown, and the thread that ends the loop must be able to run.
     """
     is_over = node.is_shutdown()
     seconds = seconds_of(timeout)

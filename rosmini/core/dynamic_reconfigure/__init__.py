@@ -1,6 +1,6 @@
-"""Parameters that are changed while a node runs (http://wiki.ros.org/dynamic_reconfigure).
+"""Parameters that can be changed while a node runs (http://wiki.ros.org/dynamic_reconfigure).
 
-The object API, on a :class:`rosmini.core.graph.Node`. Scripts import the same in rospy's style as
+Clients and servers take a :class:`rosmini.core.graph.Node`. Scripts import the same classes in rospy's style as
 ``dynamic_reconfigure``: :mod:`rosmini.ros.rospy.aliases.dynamic_reconfigure`.
 :mod:`~rosmini.core.dynamic_reconfigure.description` describes the parameters.
 """

@@ -30,9 +30,9 @@ _PATIENCE = 1.0
 class Client:
     """Changes the parameters of the server ``name`` (usually the name of its node), and receives its updates.
 
-    Waits for the server, for at most ``timeout`` seconds of the node's time. ``config_callback(config)`` is called for
-    each new configuration, ``description_callback(parameters)`` for each description. Raises ``ROSException`` after
-    the timeout.
+    The constructor waits for the server, for at most ``timeout`` seconds of the node's time, and raises
+    ``ROSException`` after that. ``config_callback(config)`` is called for each new configuration, and
+    ``description_callback(parameters)`` for each description.
     """
 
     def __init__(
@@ -177,7 +177,7 @@ class Client:
 
     @property
     def config_callback(self) -> Callable[[Config], object] | None:
-        """The callback for configurations; when it is set, it is also called with the latest one."""
+        """The callback for configurations. Setting it calls it with the latest configuration, if there is one."""
         return self._config_callback
 
     @config_callback.setter
@@ -188,7 +188,7 @@ class Client:
 
     @property
     def description_callback(self) -> Callable[[list[dict[str, Any]]], object] | None:
-        """The callback for descriptions; when it is set, it is also called with the latest one."""
+        """The callback for descriptions. Setting it calls it with the latest description, if there is one."""
         return self._description_callback
 
     @description_callback.setter
@@ -199,7 +199,7 @@ class Client:
 
 
 def _describe(tree: Config, description: Description) -> None:
-    """Replace the values in a configuration's tree by the parameters' descriptions."""
+    """Set ``parameters`` of each group in ``tree`` to the descriptions of the group's parameters."""
     tree["parameters"] = [one.as_dict() for one in description.group(tree["name"]).parameters]
     for inner in tree["groups"].values():
         _describe(inner, description)

@@ -25,7 +25,7 @@ class DynamicReconfigureParameterException(DynamicReconfigureException):
 
 
 class DynamicReconfigureCallbackException(DynamicReconfigureException):
-    """A server's callback, or a call of its service, failed."""
+    """The callback of a server failed or was misused, or a client's service call failed."""
 
 
 KINDS: dict[str, type] = {"bool": bool, "int": int, "str": str, "double": float}
@@ -42,8 +42,8 @@ _RANGES: dict[str, tuple[Any, Any, Any]] = {
 def cast_value(name: str, kind: str, value: Any) -> Any:
     """Return ``value`` as the Python type of ``kind``.
 
-    Raises ``DynamicReconfigureParameterException`` for a value of another type. An int is accepted as a double, and
-    numpy's scalars as Python's.
+    An int is accepted as a double, and a scalar of numpy as one of Python. Raises
+    ``DynamicReconfigureParameterException`` for a value of another type or an int of more than 32 bits.
     """
     if hasattr(value, "tolist"):
         value = value.tolist()
@@ -116,7 +116,7 @@ class ParameterGroup:
 class Description:
     """All parameters of a server. ``root`` is the outermost group, number 0.
 
-    Raises ``DynamicReconfigureParameterException`` for a duplicate name.
+    Raises ``DynamicReconfigureParameterException`` for a duplicate name or group number.
     """
 
     def __init__(self, root: ParameterGroup) -> None:
@@ -137,7 +137,7 @@ class Description:
                 )
 
     def __getitem__(self, name: str) -> ReconfigurableParameter:
-        """Return a parameter. Raises ``DynamicReconfigureParameterException``, with similar names."""
+        """Return the parameter ``name``. Raises ``DynamicReconfigureParameterException`` if there is none."""
         try:
             return self._by_name[name]
         except KeyError:
@@ -145,7 +145,7 @@ class Description:
             raise DynamicReconfigureParameterException(f"there is no parameter {name!r}; {hint}") from None
 
     def group(self, name: str) -> ParameterGroup:
-        """Return a group. Raises ``DynamicReconfigureParameterException``, with similar names."""
+        """Return the group ``name``. Raises ``DynamicReconfigureParameterException`` if there is none."""
         for group in self.groups:
             if group.name == name:
                 return group
@@ -170,9 +170,10 @@ class Description:
 
     @classmethod
     def of(cls, source: Any) -> Description:
-        """Make a description from a ``.cfg`` module, its dictionary, a class of typed parameters, or a description.
+        """Return a description made from a ``.cfg`` module, its dictionary, or a class of typed parameters.
 
-        Raises ``DynamicReconfigureParameterException`` for anything else, and for errors in it.
+        A description is returned unchanged. Raises ``DynamicReconfigureParameterException`` for any other source, and
+        if the source is invalid.
         """
         if isinstance(source, Description):
             return source
@@ -237,7 +238,8 @@ def filled_parameter(
 ) -> ReconfigurableParameter:
     """Return a parameter; a default, minimum or maximum of None is replaced by that of the type.
 
-    The default may be out of the range. Raises ``DynamicReconfigureParameterException`` for a wrong type.
+    The default may be out of range. Raises ``DynamicReconfigureParameterException`` for an unknown type, and for a
+    value that is not of that type.
     """
     if type not in KINDS:
         hint = nearest(str(type), KINDS) or f"types are {', '.join(KINDS)}"

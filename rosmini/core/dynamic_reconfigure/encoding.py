@@ -37,7 +37,7 @@ def _message(name: str, *values: Any) -> Any:
 def group_tree(group: ParameterGroup, states: Mapping[str, bool], values: Mapping[str, Any] | None = None) -> Config:
     """Return the item ``groups`` of a configuration: the states of groups, their parameters, and their subgroups.
 
-    Each value appears in ``parameters`` and beside it, because ROS's server uses one form and its client the other.
+    Each value appears in ``parameters`` and as an item of its group: ROS's server uses one form, its client the other.
     """
     held = {one.name: values[one.name] for one in group.parameters if values and one.name in values}
     return Config(
@@ -61,7 +61,10 @@ def group_states(tree: Mapping[str, Any]) -> dict[str, bool]:
 
 
 def encode_values(description: Description, values: Mapping[str, Any], states: Mapping[str, bool] | None = None) -> Any:
-    """Return a ``Config`` message with the given parameters and states of groups."""
+    """Return a ``Config`` message with the given parameters and states of groups.
+
+    Raises ``DynamicReconfigureParameterException`` for a name that the description does not contain.
+    """
     message = _message("Config")
     for name, value in values.items():
         kind = description[name].type
@@ -96,7 +99,7 @@ def encode_description(description: Description) -> Any:
 def decode_description(message: Any) -> Description:
     """Return the description in a ``ConfigDescription`` message.
 
-    Raises ``DynamicReconfigureParameterException`` if it has no group 0.
+    Raises ``DynamicReconfigureParameterException`` if group 0, or a parameter's default or range, is missing.
     """
     lows, highs, defaults = (decode_values(one)[0] for one in (message.min, message.max, message.dflt))
 

@@ -34,14 +34,14 @@ class Server:
     ``type`` is any source that :meth:`Description.of` accepts. Initial values come from the Parameter Server, or are
     the defaults. They are limited to their ranges with a warning; a float is rounded for an int, as in roscpp.
     ``callback(config, level)`` is called with all values, at the start and after each change, and returns the
-    configuration to apply: ``level`` is the bitwise OR of the levels of the changed parameters, 0 if none changed, and
-    -1 (all bits set) in the first call. The new values are written to the Parameter Server and published on
-    ``parameter_updates``;
-    ``parameter_descriptions`` has the description, and the service ``set_parameters`` accepts changes. The callback is
-    never called twice at the same time. If it fails, nothing changes.
+    configuration to apply. ``level`` is the bitwise OR of the levels of the changed parameters, 0 if none changed, and
+    -1 (all bits set) in the first call. Calls never overlap, and nothing changes if the callback fails.
+
+    The new values are written to the Parameter Server and published on ``parameter_updates``. The description is
+    published on ``parameter_descriptions``. The service ``set_parameters`` accepts changes.
 
     Raises ``DynamicReconfigureParameterException`` for a wrong description or a value of the wrong type on the
-    Parameter Server, ``DynamicReconfigureCallbackException`` if the callback returns nothing.
+    Parameter Server, and ``DynamicReconfigureCallbackException`` if the callback returns None.
     """
 
     def __init__(self, node: Node, type: Any, callback: Callable[[Config, int], Any], namespace: str = "") -> None:
@@ -148,7 +148,7 @@ class Server:
 
     @contextmanager
     def _alone(self) -> Iterator[None]:
-        """Run one change at a time, even if a callback blocks."""
+        """Wait until no other change is being made. Raises an exception if the callback itself starts a change."""
         me = self.node.scheduler.current()
         if self._owner is me:
             raise DynamicReconfigureCallbackException(

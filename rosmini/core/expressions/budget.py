@@ -18,7 +18,7 @@ STEPS = 2_000_000
 """Maximum number of loop iterations, new elements and new characters of one evaluation."""
 
 STEPS_OF_A_FILE = 200_000
-"""The same for all expressions of a file together; each character adds `STEPS_OF_A_CHARACTER`."""
+"""Initial budget for all expressions of a file together [steps]; each character adds `STEPS_OF_A_CHARACTER`."""
 
 STEPS_OF_A_CHARACTER = 10
 
@@ -29,7 +29,7 @@ COMPARED_AT_ONCE = 1024
 """Number of characters that a built-in search compares in the time of one loop iteration."""
 
 BITS_SQUARED = 1 << 18
-"""Arithmetic with integers of this many bits, squared, takes as long as one loop iteration."""
+"""Square of the size [bits] of two integers whose product takes as long as one loop iteration."""
 
 _SHOWN = 60
 _ATOMS = frozenset({bool, float, int, type(None)})
@@ -37,14 +37,14 @@ _VIEWS: tuple[Any, ...] = (type({}.keys()), type({}.values()), type({}.items()))
 _HOLDERS: tuple[Any, ...] = (list, tuple, dict, set, *_VIEWS)
 _NUMBERS = frozenset({bool, float, int})
 _SMALL = 1 << 256
-"""Integers up to this one cost no more than others."""
+"""Integers of a smaller absolute value are not charged."""
 
 
 class ExpressionError(RosminiError):
     """An expression is invalid or failed; ``__cause__`` is Python's error."""
 
     has_spot = False
-    """True if the message already contains the part of the expression."""
+    """True if the message already quotes the part of the expression that failed."""
 
 
 class NotAllowed(ExpressionError):
@@ -52,7 +52,7 @@ class NotAllowed(ExpressionError):
 
 
 class Budget:
-    """The budget shared by some evaluations, in steps. By default each evaluation has its own."""
+    """The number of steps that some evaluations may still take. By default each evaluation has its own budget."""
 
     __slots__ = ("left",)
 
@@ -60,7 +60,7 @@ class Budget:
         self.left = steps
 
     def earn(self, length: int) -> None:
-        """Extend the budget for ``length`` characters of a file: a long file may cost more than a short one."""
+        """Extend the budget for ``length`` characters of a file, so that a long file may take more steps."""
         self.left += STEPS_OF_A_CHARACTER * length
 
     def spend(self, steps: int) -> None:
@@ -70,7 +70,7 @@ class Budget:
             raise NotAllowed("this would take too many steps")
 
     def read(self, value: Any) -> None:
-        """Charge for a built-in function that reads the whole value."""
+        """Charge for a built-in function that reads the whole value. Raises `NotAllowed` when nothing is left."""
         kind = type(value)
         if kind is int:
             if not -_SMALL < value < _SMALL:
@@ -97,7 +97,7 @@ class Budget:
         self.spend(bits * bits // BITS_SQUARED)
 
     def search(self, text: Any, words: Any) -> None:
-        """Charge for a built-in search that may compare each character with each."""
+        """Charge for a built-in search in ``text`` for ``words``, which may compare every pair of characters."""
         if isinstance(text, str | bytes) and isinstance(words, str | bytes):
             self.spend(len(text) * len(words) // COMPARED_AT_ONCE)
 
@@ -114,7 +114,7 @@ class Budget:
         self.spend(size)
 
     def collect(self, values: Iterable[Any]) -> list[Any]:
-        """Return a list of the elements of an iterable."""
+        """Return a list of the elements of an iterable. Charge for a collection; other iterables charge themselves."""
         if isinstance(values, Collection):
             self.room(len(values))
         return list(values)  # loops in expressions are charged as they run
@@ -127,9 +127,9 @@ def check_bits(bits: int) -> None:
 
 
 def weight(value: Any) -> int:
-    """Return the total number of elements and characters in a value; slightly above `MAX_ELEMENTS` if it is larger.
+    """Return the total number of elements and characters in a value, where large integers count by their digits.
 
-    The digits of large integers count as characters.
+    Counting stops above `MAX_ELEMENTS`.
     """
     total = 0
     waiting: list[Any] = [value]
@@ -156,5 +156,5 @@ def _digits(value: Any) -> int:
 
 
 def cut(text: str) -> str:
-    """Return a text, shortened if it is long."""
+    """Return a text of at most `_SHOWN` characters: the start of `text`, with "..." if it is longer."""
     return text if len(text) <= _SHOWN else text[: _SHOWN - 3] + "..."

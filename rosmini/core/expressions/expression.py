@@ -21,11 +21,14 @@ MAX_LENGTH = 10_000
 """Maximum length of an expression [characters]."""
 
 Fields = Callable[[Any, str], Any]
-"""Return an attribute that an expression may read. Raises ``AttributeError`` if there is none."""
+"""A function of a value and a name that returns an attribute which expressions may read.
+
+It raises ``AttributeError`` for any other name.
+"""
 
 
 def no_fields(value: Any, name: str) -> Any:
-    """Refuse every attribute (see `Fields`)."""
+    """Raise ``AttributeError``: values have no attributes (see `Fields`)."""
     raise AttributeError(f"a {type(value).__name__} has no {name!r}")
 
 
@@ -39,7 +42,7 @@ class Run(NamedTuple):
 
 Step = Callable[[Run], Any]
 Find = Callable[[Run], tuple[Function, tuple[Any, ...]]]
-"""Return the function to call, and the value before its dot if that is an argument."""
+"""Returns the function to call, with the value before the dot as its first argument if it is a method."""
 
 
 class Expression:
@@ -47,9 +50,10 @@ class Expression:
 
     Args:
         text: the expression.
-        names: the names that `evaluate` will provide; None: any (an unknown name then fails in `evaluate`).
-        functions: additional `Function`, `Namespace` and values; by default `FUNCTIONS`, `MATH` and ``math``.
-        fields: reads the attributes of values.
+        names: the names that `evaluate` will provide; None allows any (an unknown name then fails in `evaluate`).
+        functions: instances of `Function` and `Namespace` and other values that the expression may use, by name; by
+            default `FUNCTIONS`, `MATH` and ``math``.
+        fields: reads attributes of values, by default none.
         methods: methods that may be called in addition to `METHODS`, by type. They must not modify anything.
 
     Raises:
@@ -82,7 +86,7 @@ class Expression:
         return f"Expression({cut(self.text)!r})"
 
     def evaluate(self, names: Mapping[str, Any], budget: Budget | None = None) -> Any:
-        """Return the value for these names. Raises `ExpressionError`, whose message contains the part that failed."""
+        """Return the value for these names. Raises `ExpressionError`, whose message quotes the part that failed."""
         run = Run(names, {}, budget or Budget())
         return run.budget.made(self._step(run))
 
@@ -100,7 +104,7 @@ class Expression:
         return made if isinstance(node, ast.Constant) else self._with_spot(node, made)
 
     def _with_spot(self, node: ast.AST, made: Step) -> Step:
-        """Wrap a closure to raise `ExpressionError` or `NotAllowed`, with the part of the expression that failed."""
+        """Wrap a closure so that all its errors become `ExpressionError` or `NotAllowed`, and quote ``node``."""
 
         def checked(run: Run) -> Any:
             try:

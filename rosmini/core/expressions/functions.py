@@ -15,7 +15,7 @@ from rosmini.core.errors import nearest, shown
 from .budget import BITS, STEPS, Budget, NotAllowed, check_bits, cut, weight
 
 MAX_NUMBER_WIDTH = 2000
-"""Maximum length of a formatted number: width and precision have at most three digits, the value `BITS`."""
+"""Maximum length of a formatted number: width and precision have at most three digits, an integer `BITS` bits."""
 
 MAX_ROUND_DIGITS = 400
 """Maximum number of digits for ``round``; floating-point numbers have fewer."""
@@ -37,11 +37,11 @@ _BITS_OF: dict[Callable[..., Any], Callable[[int, int], int]] = {
     operator.pow: lambda left, right: left.bit_length() * max(right, 0) if abs(left) > 1 else 1,
     operator.lshift: lambda left, right: left.bit_length() + max(right, 0),
 }
-"""Return the size of an integer result [bits]."""
+"""An upper bound of the size of the result [bits] for each operator that can make large integers."""
 
 
 def compute(operate: Callable[[Any, Any], Any], left: Any, right: Any, budget: Budget) -> Any:
-    """Return the result of an operator of `OPERATORS`, after checking that it will not be too large."""
+    """Return the result of an operator of `OPERATORS`. Raises `NotAllowed`, before computing it, if it is too large."""
     if operate is operator.mod and isinstance(left, str | bytes):
         _pay_for_format(left, right, budget)
     elif isinstance(left, float) or isinstance(right, float):
@@ -69,7 +69,7 @@ brackets, the type is ``(``."""
 
 
 def _pay_for_format(text: str | bytes, values: Any, budget: Budget) -> None:
-    """Charge for a format: ``'%1000000000d' % 1`` and ``'%(a)s' * 10**5 % {'a': 'a' * 10**4}`` are huge."""
+    """Charge in advance for ``text % values``, as ``'%1000000000d' % 1`` is huge. Raises `NotAllowed` if too large."""
     found = text if isinstance(text, str) else text.decode("latin-1")
     budget.room(len(found) + found.count("%") * (MAX_NUMBER_WIDTH + weight(budget.made(values))))
     for conversion in _CONVERSION.finditer(found):
@@ -84,7 +84,7 @@ class Function:
     """A function that expressions may call; they cannot call anything else.
 
     ``call`` must be safe for all arguments: no access to files or attributes, and a result whose size is bounded
-    by that of the arguments. If `counts` is set, its first argument is the `Budget`, which it charges itself.
+    by that of the arguments. With `counts`, the first argument of ``call`` is the `Budget`, which it charges itself.
     """
 
     __slots__ = ("call", "counts", "name")
@@ -96,7 +96,7 @@ class Function:
         return f"<function {self.name}>"
 
     def apply(self, budget: Budget, arguments: Iterable[Any], named: Mapping[str, Any]) -> Any:
-        """Call the function, and charge the budget."""
+        """Call the function, charge the budget, and return the result."""
         for value in arguments:
             budget.read(value)
         first = (budget,) if self.counts else ()
@@ -104,7 +104,7 @@ class Function:
 
 
 class Namespace:
-    """A namespace of names that follow a dot: ``math.pi``."""
+    """A set of names that are written after ``name`` and a dot: ``math.pi``."""
 
     __slots__ = ("members", "name")
 
@@ -115,7 +115,7 @@ class Namespace:
         return f"<names of {self.name}>"
 
     def member(self, name: str) -> Any:
-        """Return the value of a name. Raises ``NameError``."""
+        """Return the value of a name. Raises ``NameError`` if there is none."""
         if name not in self.members:
             hint = nearest(name, self.members)
             raise NameError(f"name '{self.name}.{name}' is not defined{f'; {hint}' if hint else ''}")

@@ -1,7 +1,7 @@
 """Angles, and conversion to and from quaternions.
 
-The first two functions are named after those of the ROS package `angles` (http://wiki.ros.org/angles) and do the
-same. An infinite angle becomes nan.
+`normalize_angle` and `shortest_angular_distance` are those of the ROS package `angles` (http://wiki.ros.org/angles).
+An infinite angle becomes nan.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ def normalize_angle(angle: float) -> float: ...
 @overload
 def normalize_angle(angle: Floats) -> Floats: ...
 def normalize_angle(angle: float | Floats) -> float | Floats:
-    """Return the equivalent angle in (-pi, pi]: a number for a number, an array for an array.
+    """Return the equivalent angle [rad] in (-pi, pi]: a number for a number, an array for an array.
 
     The result is exact for the given `TURN`: `fmod` is exact, and so is adding or subtracting one turn afterwards.
 
@@ -61,7 +61,7 @@ def shortest_angular_distance(start: Floats, end: float | Floats) -> Floats: ...
 @overload
 def shortest_angular_distance(start: float, end: Floats) -> Floats: ...
 def shortest_angular_distance(start: float | Floats, end: float | Floats) -> float | Floats:
-    """Return the rotation from `start` to `end`, in (-pi, pi]; numbers, or arrays that numpy can broadcast.
+    """Return the rotation [rad] from `start` to `end`, in (-pi, pi], for numbers or arrays that numpy can broadcast.
 
     >>> round(shortest_angular_distance(3.0, -3.0), 3)
     0.283
@@ -70,15 +70,15 @@ def shortest_angular_distance(start: float | Floats, end: float | Floats) -> flo
 
 
 def quaternion_from_yaw(yaw: float) -> tuple[float, float, float, float]:
-    """Return the rotation by `yaw` about z as x, y, z, w, the order of `geometry_msgs/Quaternion`."""
+    """Return the rotation by `yaw` [rad] about z as x, y, z, w, the order of `geometry_msgs/Quaternion`."""
     return (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
 
 
 def yaw_from_quaternion(x: float, y: float, z: float, w: float) -> float:
-    """Return the yaw of a rotation, in [-pi, pi], as in its decomposition into yaw, then pitch, then roll.
+    """Return the yaw [rad] of a rotation, in [-pi, pi], as in its decomposition into yaw, then pitch, then roll.
 
-    The quaternion need not be normalised. One of length 0, as in an empty message, is not a rotation and raises
-    `GeometryError`.
+    The quaternion need not be normalised. Raises `GeometryError` if its length is 0, as in an empty message, or is not
+    finite.
     """
     square = x * x + y * y + z * z + w * w
     if not 0 < square < math.inf:

@@ -1,4 +1,4 @@
-"""Errors of this package."""
+"""Errors of `rosmini.core.geometry`."""
 
 from __future__ import annotations
 

@@ -9,14 +9,14 @@ from contextlib import AbstractContextManager, contextmanager
 from typing import Any
 
 LOADING = 1_000_000
-"""Work in plain Python or numpy, over all loops of a process, before numba is loaded [us]."""
+"""Estimated work of all loops of a process, in plain Python or numpy, before numba is loaded [us]."""
 
 COMPILING = 200_000
-"""Work of one loop before it is compiled [us]."""
+"""Estimated work of one loop before it is compiled [us]."""
 
 
 class Deferral:
-    """Decides when a loop is compiled: after an amount of work, which is estimated and never timed.
+    """Decides when a loop is compiled: after a certain amount of work, which is estimated and never timed.
 
     Both versions of a loop return the same bits, so a program can switch at any call.
     """
@@ -31,7 +31,7 @@ class Deferral:
         """If True, do not switch to machine code."""
 
     def due(self, work: int) -> bool:
-        """Record a call that takes `work` [us] without machine code; return whether to use machine code."""
+        """Record a call that takes about `work` [us] without machine code; return whether to use machine code."""
         if not self._due and not self.held:
             self._done += work
             Deferral.total += work
@@ -47,7 +47,7 @@ class Deferral:
 def machine_code(
     function: Callable[..., Any], signature: Any, helpers: Iterable[Callable[..., Any]] = ()
 ) -> Callable[..., Any]:
-    """Compile `function`, which calls `helpers`, for one numba signature, or load it from numba's cache.
+    """Return `function`, which calls `helpers`, compiled for one numba signature, if possible from numba's cache.
 
     Raises `ImportError` without numba.
     """
@@ -83,4 +83,4 @@ def progress(text: str) -> Iterator[None]:
 
 
 show_progress: Callable[[str], AbstractContextManager[None]] = progress
-"""Shows a text while something is compiled; a notebook replaces it."""
+"""Shows a text while a function is compiled; a notebook replaces it."""

@@ -19,7 +19,7 @@ Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
 TOUCH = 1e-6
-"""Overlap that counts as mere contact [m]."""
+"""Maximum overlap that counts as contact only [m]."""
 
 
 def sides_of(outline: Floats) -> Floats:
@@ -62,11 +62,11 @@ def distances_to_sides(points: Floats, sides: Floats) -> Floats:
 
 
 def simplified_indices(fixed: Sequence[int], gaps: Callable[[int, int], Floats], tolerance: float) -> list[int]:
-    """Return the indices of the points needed to draw a line within `tolerance` of the others, including `fixed`.
+    """Return the indices of the points, including `fixed`, that draw a line within `tolerance` of all the others.
 
-    `gaps(first, last)` returns the distances between the points between two indices and the line drawn without them
-    (Douglas and Peucker, "Algorithms for the reduction of the number of points required to represent a digitized line
-    or its caricature", 1973).
+    `gaps(first, last)` returns the distances of the points between these indices from the line without them (Douglas
+    and Peucker, "Algorithms for the reduction of the number of points required to represent a digitized line or its
+    caricature", 1973). The unit is that of `tolerance`.
 
     Distances are rounded to billionths, since their last bits differ between processors: of points at equal distances,
     such as two on an arc, the first is chosen.

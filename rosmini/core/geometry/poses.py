@@ -2,7 +2,7 @@
 
 A pose is a tuple of three floats or an array (..., 3); functions return the same kind. Arrays are
 broadcast against each other and against single poses. Headings are never wrapped, so turns can be counted;
-`normalize_angle` wraps them.
+`normalize_angle` wraps them. An array of another shape raises `GeometryError`.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def inverse(pose: Pose) -> Pose: ...
 @overload
 def inverse(pose: Floats) -> Floats: ...
 def inverse(pose: Pose | Floats) -> Pose | Floats:
-    """Return the inverse: the world's pose in the frame of `pose`. Composed with `pose` it is (0, 0, 0)."""
+    """Return the inverse: the parent frame's pose in the frame of `pose`. Composed with `pose` it is (0, 0, 0)."""
     if isinstance(pose, tuple):
         x, y, theta = pose
         c, s = math.cos(theta), math.sin(theta)
@@ -58,7 +58,7 @@ def inverse(pose: Pose | Floats) -> Pose | Floats:
 
 
 def transform_points(pose: Pose | Floats, points: ArrayLike) -> Floats:
-    """Transform points (..., 2) from the frame of `pose`, or of each pose (..., 3), to its parent frame."""
+    """Return the points (..., 2), given in the frame of `pose` or of each pose (..., 3), in its parent frame [m]."""
     array = np.asarray(points, dtype=np.float64)
     if array.ndim == 0 or array.shape[-1] != 2:
         msg = f"points are an array (..., 2) of x and y, not {array.shape}"

@@ -28,7 +28,10 @@ def scalar_product(first: ArrayLike, second: ArrayLike) -> float:
 
 
 def matrix_product(first: ArrayLike, second: ArrayLike) -> Floats:
-    """Return the product of a matrix, or of row vectors, (..., k) and a matrix (k, m), or a vector (k,)."""
+    """Return the product of an array of row vectors (..., k) and a matrix (k, m) or a vector (k,).
+
+    The result is (..., m) or (...). Raises `ValueError` if the shapes do not match.
+    """
     left, right = np.asarray(first, dtype=np.float64), np.asarray(second, dtype=np.float64)
     if left.shape[-1] != len(right):
         raise ValueError(f"matrices of shapes {left.shape} and {right.shape} have no product")
@@ -61,7 +64,7 @@ def determinant(matrix: ArrayLike) -> float:
 def inverse_matrix(matrix: ArrayLike) -> Floats:
     """Return the inverse of a matrix (n, n), by Gauss-Jordan elimination with pivoting.
 
-    Raises `numpy.linalg.LinAlgError` if the matrix is singular.
+    Raises `numpy.linalg.LinAlgError` if the matrix is singular or not square.
     """
     given = np.asarray(matrix, dtype=np.float64)
     if given.ndim != 2 or given.shape[0] != given.shape[1]:

@@ -25,13 +25,13 @@ SHOWN_LINES = 12
 
 
 class Callback(NamedTuple):
-    """A user's function, and the extra arguments that it gets after each message."""
+    """A user's function, and the extra arguments that are passed to it after each message."""
 
     function: Callable[..., object]
     arguments: tuple[Any, ...]
 
     def caller(self) -> Callable[[Any], object]:
-        """Return a function that calls the user's function with a message."""
+        """Return a function of a message that calls the user's function with all arguments."""
         function, arguments = self.function, self.arguments
         return (lambda message: function(message, *arguments)) if arguments else function
 
@@ -39,7 +39,7 @@ class Callback(NamedTuple):
 def describe_failure(
     error: BaseException, callback: Callable[..., object], where: str, message: Any, node: str
 ) -> CallbackError:
-    """Return a ``CallbackError`` caused by ``error``: callback, user's line, topic or service, and message."""
+    """Return a ``CallbackError`` for ``error``: it shows callback, user's line, topic or service, and message."""
     name = getattr(callback, "__qualname__", None) or type(callback).__name__
     lines = [f"{name.rpartition('<locals>.')[2]} of {node}, called for {where}, raised {type(error).__name__}: {error}"]
     place = _users_line(error)
@@ -57,7 +57,7 @@ def describe_failure(
 
 
 def _users_line(error: BaseException) -> str | None:
-    """Return the last line of the traceback that is not in rosmini or the standard library."""
+    """Return the last line of the traceback outside rosmini and the standard library, as text, or None."""
     best: tuple[FrameType, int] | None = None
     trace = error.__traceback__
     while trace is not None:
@@ -92,18 +92,18 @@ class TopicHandle(ABC):
 
     @abstractmethod
     def detach(self) -> None:
-        """Called when the node has shut down."""
+        """End this handle after its node has shut down."""
 
     def unregister(self) -> None:
-        """End this handle. The node leaves the topic when its last handle ends. Harmless when repeated."""
+        """End this handle. The node leaves the topic when its last handle for it ends. Safe to call again."""
         self.node.scheduler.run_in_scheduler(self._unregister)
 
     def connected(self, peer: str) -> None:
-        """Called when the node ``peer`` has been connected."""
+        """Run ``on_connect`` after the node ``peer`` has been connected."""
         self._run_callback(self._on_connect, peer)
 
     def disconnected(self, peer: str) -> None:
-        """Called when the node ``peer`` has been disconnected."""
+        """Run ``on_disconnect`` after the node ``peer`` has been disconnected."""
         self._run_callback(self._on_disconnect, peer)
 
     def _run_callback(self, callback: Callable[[str], object] | None, peer: str) -> None:

@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     from .scheduler import Scheduler
 
 CLOCK_PATIENCE_NS = 2 * 10**9
-"""Time without ``/clock`` after which a node logs why its sleeps hang [ns]."""
+"""Time without a message on ``/clock`` after which a node logs why its sleeps hang [ns]."""
 
 
 class GraphClock:
-    """The graph's own time."""
+    """A node's clock that shows the graph's time."""
 
     def __init__(self, scheduler: Scheduler) -> None:
         self._scheduler = scheduler
@@ -37,7 +37,7 @@ class GraphClock:
 
 
 class WrongClock(GraphClock):
-    """A clock that is ``offset_ns`` ahead of the graph's time."""
+    """A node's clock that is wrong: ``offset_ns`` ahead of the graph's time."""
 
     def __init__(self, scheduler: Scheduler, offset_ns: int) -> None:
         super().__init__(scheduler)
@@ -50,7 +50,10 @@ class WrongClock(GraphClock):
 
 
 class TopicClock:
-    """The time published on the topic ``/clock``; zero before the first message."""
+    """A node's clock that shows the time published on the topic ``/clock``, and zero before the first message.
+
+    ``complain(text)`` is called if no message arrives for ``CLOCK_PATIENCE_NS``.
+    """
 
     def __init__(self, scheduler: Scheduler, complain: Callable[[str], None]) -> None:
         self._scheduler = scheduler
@@ -76,7 +79,7 @@ class TopicClock:
         return cancel
 
     def update(self, message: Any) -> None:
-        """Set the time from a ``rosgraph_msgs/Clock`` message."""
+        """Set the time from a ``rosgraph_msgs/Clock`` message, and make the calls that are due."""
         self._watch.cancel()
         before, self._now = self._now, message.clock.to_nsec()
         backwards = self._now < before
@@ -132,7 +135,7 @@ class Rate:
         return self._last + self._period - now
 
     def sleep(self) -> None:
-        """Sleep until the end of this cycle; if the cycle took more than two periods too long, restart it.
+        """Sleep until the end of this cycle. If that was more than two periods ago, start a new cycle now.
 
         Raises ``ROSInterruptException`` if the node shuts down, and ``ROSTimeMovedBackwardsException`` if its clock
         jumps back.
@@ -149,11 +152,15 @@ class Rate:
         self.end_turn(clock.now_ns())
 
     def restart(self, now: int) -> None:
-        """Start a cycle now."""
+        """Start a new cycle at the node's time ``now`` [ns]."""
         self._last = now
 
     def end_turn(self, now: int) -> None:
-        """End a cycle; the next one began when it was due, unless that is more than two periods ago."""
+        """End the cycle at the node's time ``now`` [ns].
+
+        The next cycle starts at the time when this one should have ended, or at ``now`` if that is more than two
+        periods ago.
+        """
         self._last += self._period
         if now - self._last > 2 * self._period:
             self._last = now
@@ -162,8 +169,8 @@ class Rate:
 class TimerEvent(NamedTuple):
     """The argument of a timer callback, as in rospy.
 
-    The times when the previous and this call were due (`*_expected`) and ran (`*_real`), and how long the previous
-    callback took [s]. The fields of the previous call are None on the first call.
+    It contains the times at which the previous call and this one should have run (`*_expected`) and ran (`*_real`), and
+    the duration of the previous call [s]. On the first call, the fields of the previous one are None.
     """
 
     last_expected: Time | None
@@ -240,7 +247,7 @@ class Timer:
         clock = node.clock
         now = self._slept_from = clock.now_ns()
         span = self._cycle.left_ns(now)
-        if span <= 0:  # everything else that is due runs first
+        if span <= 0:  # run everything else that is due first
             node.scheduler.call_soon_threadsafe(self._due)
         elif now == 0:
             self._cancel = clock.call_at(1, partial(self._wait_from_first_message, span))

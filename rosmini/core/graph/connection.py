@@ -57,12 +57,12 @@ def _class_of(header: Header, protocol: str, default: Any) -> Any:
 
 
 class Route(NamedTuple):
-    """How the frozen messages of a connection reach the callbacks."""
+    """The steps that pass the frozen messages of a connection to the callbacks."""
 
     own: Any
-    """The class that the callbacks get; None for any class."""
+    """The class of the messages that the callbacks receive; None for any class."""
     thaw: Callable[[Any], Any] | None
-    """Makes the callbacks' own copy of a frozen message; None if the message is passed on unchanged."""
+    """Returns a copy of a frozen message for the callbacks; None if they receive the frozen message itself."""
     set_header: Callable[[Any, Header], None]
     callbacks: tuple[tuple[Callable[[Any], object], Callback], ...]
 
@@ -104,11 +104,11 @@ IN_FLIGHT = 6 * 2**20
 """Size of a connection's buffers, like those of two sockets [bytes]; further messages wait in the queue."""
 
 OVERHEAD = 64
-"""Size of a message in these buffers in addition to its content [bytes]."""
+"""Space that a message takes in these buffers in addition to its content [bytes]."""
 
 
 class QueuedSender:
-    """Collects messages until the scheduler's next event, and then flushes them.
+    """Collects the messages of a publisher for one subscriber, and delivers them at the scheduler's next event.
 
     As in rospy, whose threads send while the publisher continues, a burst does not fill the queue. A publisher's queue
     size matters only while the subscriber is so slow that the buffers between the two are full.
@@ -322,7 +322,7 @@ class Connection:
         return transport.call(self.uri, "requestTopic", node.name, self.subscription.topic, transport.offers(node.uri))
 
     def _has_left(self) -> bool:
-        """Return True if the publisher left between its two answers, which is not worth reporting."""
+        """Return True if the publisher has left the topic since its first response, which is not an error."""
         try:
             return bool(self._request_topic()[0] == -1)
         except TransportException:
@@ -371,7 +371,7 @@ class Connection:
 
     @property
     def queue_size(self) -> int | None:
-        """Maximum number of messages that wait for the callbacks."""
+        """Maximum number of messages that wait for the callbacks; None for no limit."""
         return self.subscription.queue_size
 
     def observe(self) -> None:
@@ -500,19 +500,19 @@ class Connection:
             self._failed(error, callback, message)
 
     def replay(self, callback: Callback) -> None:
-        """Give a late callback the publisher's latched message, as the other callbacks got it."""
+        """Pass the publisher's latched message, if any, to a callback that was added later."""
         if self._last is not None:
             message = self._last
             self._lane.submit(lambda: self._call(callback, message))
 
     def closed(self) -> None:
-        """Called when the publisher has closed the connection."""
+        """Clean up after the publisher has closed the connection."""
         self._shut()
         self.had_success = self.received > 0
         self.subscription.closed(self)
 
     def failed(self, error: Exception) -> None:
-        """Called when the transport has failed and closed the connection."""
+        """Clean up after the transport has failed and closed the connection."""
         if self._is_over:
             return
         self._shut()

@@ -37,7 +37,7 @@ class Timer(list[Any]):
 
 
 class TimedEvents:
-    """The timers whose calls have not been made."""
+    """The timers whose calls have not been made yet, ordered by time."""
 
     def __init__(self) -> None:
         self.heap: list[Timer] = []
@@ -49,7 +49,7 @@ class TimedEvents:
         return len(self.heap)
 
     def add(self, when_ns: int, callback: Callable[[], object]) -> Timer:
-        """Schedule a call at ``when_ns``."""
+        """Schedule a call at graph time ``when_ns``; return its timer."""
         self._sequence += 1
         timer = Timer((when_ns, self._sequence, callback))
         heapq.heappush(self.heap, timer)
@@ -72,7 +72,7 @@ class TimedEvents:
                 ready.append(callback)
 
     def next_ns(self) -> int | None:
-        """Return the time of the next call, or None."""
+        """Return the time of the next call [ns], or None if there is none."""
         heap = self.heap
         while heap and heap[0][2] is None:
             heapq.heappop(heap)
@@ -87,7 +87,7 @@ T = TypeVar("T")
 
 
 class Sleeper(Protocol):
-    """Lets the reader sleep outside the inbox, so that other events can wake it too."""
+    """A place where the reader of an inbox sleeps, so that other events can wake it too."""
 
     is_asleep: bool
 
@@ -99,7 +99,7 @@ class Sleeper(Protocol):
 
 
 class Inbox(Generic[T]):
-    """A queue with any number of writers and one reader. A writer may interrupt another one during `put`.
+    """A queue with any number of writing threads and one reader. A signal handler may write during another `put`.
 
     Not a ``queue.SimpleQueue``: before Python 3.12 its ``get`` may wait for ever if the timeout expires before the
     wait begins, as happens on a busy machine.
@@ -145,10 +145,10 @@ TICK_QUANTUM_NS = 1_000_000
 """Step of simulated time in a polling loop, and at an instant whose events never end."""
 
 ROUNDS_PER_INSTANT = 10_000
-"""Maximum number of rounds of events at one instant; more mean that nodes answer each other without end."""
+"""Maximum number of rounds of events at one instant; more than this means that nodes trigger each other endlessly."""
 
 ROUNDS_PER_QUANTUM = 20
-"""Beyond that maximum, number of rounds that take one quantum: 0.1 ms for a message and its callback, as on a robot."""
+"""Number of further rounds for which time advances by one quantum: 0.1 ms for a message and its callback."""
 
 
 def span_ns(seconds: float, what: str) -> int:
@@ -271,7 +271,7 @@ class EventQueue:
         self._last.clear()
 
     def _force_time_forward(self) -> None:
-        """Advance simulated time although the events of this instant never end."""
+        """Advance simulated time by one quantum at most, although events of this instant are left."""
         due, soon = self._timed.next_ns(), self._now + TICK_QUANTUM_NS
         self._now = soon if due is None else min(soon, max(due, self._now))
         self._rounds -= ROUNDS_PER_QUANTUM

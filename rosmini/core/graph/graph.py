@@ -59,16 +59,17 @@ class Graph:
     """A ROS computation graph in this process.
 
     Args:
-        simulated: use simulated time, which jumps from event to event (the default), instead of wall time.
-        rate: in wall time, the seconds of graph time that pass in one second.
+        simulated: use simulated time, which jumps from event to event (the default), instead of wall-clock time.
+        rate: in wall-clock time, the seconds of graph time that pass in one second.
         seed: the seed of the graph's random numbers; see :meth:`rng`.
         strict: raise an exception of a callback at the call that drives the graph; if False, log it, as ROS does.
-        transports: each makes a transport from the scheduler, the preferred one first; by default in-process hand-over.
+        transports: functions that return a transport for the scheduler, the preferred one first; by default only the
+            transport within this process.
         rosout: run the node ``/rosout``, which ``roscore`` starts; a Master elsewhere has its own.
         log_dir: write a log file for each node, ``<log_dir>/<run_id>/<node>-<number>.log``; by default in the folder
             that the environment variable ``ROS_LOG_DIR`` names; without either, no files. A graph in simulated
             time overwrites its files.
-        master: makes the port of a Master elsewhere from the graph; by default the graph has its own Master.
+        master: a function of the graph that returns the port of a Master elsewhere; by default the graph has its own.
         run_id: the value of ``/run_id`` and the name of the folder of log files; by default the same for all graphs.
 
     Only the graph's creator drives it, with :meth:`run` or with any call that blocks.
@@ -147,7 +148,7 @@ class Graph:
         self.shutdown("the graph was closed")
 
     def start_rosout(self) -> None:
-        """Start the node ``/rosout``."""
+        """Start the node ``/rosout``, which publishes all log messages again on ``/rosout_agg``."""
         node = Node("rosout", self, has_rosout=False)  # it would receive its own messages
         aggregate = node.publisher("/rosout_agg", self.log_class, queue_size=None)
 
@@ -163,7 +164,7 @@ class Graph:
         return self.master.uri
 
     def ask_as(self, caller_id: str) -> MasterProxy:
-        """Return the Master as seen by a caller of this name, for tools that are not nodes."""
+        """Return an interface for calling the Master on behalf of ``caller_id``, for tools that are not nodes."""
         return MasterProxy(self, caller_id)
 
     # -- time ----------------------------------------------------------------------------------------------------
@@ -196,7 +197,7 @@ class Graph:
 
     @property
     def runs_in_real_time(self) -> bool:
-        """True in wall time, and while the graph is live."""
+        """True in wall-clock time, and while the graph is live."""
         return not self.simulated or self.is_live
 
     def rng(self, name: str) -> np.random.Generator:
@@ -217,7 +218,7 @@ class Graph:
 
     @property
     def unreachable(self) -> tuple[str, ...]:
-        """The nodes that the Master knows but that do not answer: they ended without unregistering."""
+        """The nodes that the Master knows but that do not respond, because they ended without unregistering."""
         return self.scheduler.run_in_scheduler(self._find_unreachable)
 
     def _find_unreachable(self) -> tuple[str, ...]:
@@ -256,7 +257,10 @@ class Graph:
     # -- errors --------------------------------------------------------------------------------------------------
 
     def report(self, error: BaseException, node: Any, *, raise_strict: bool = True) -> None:
-        """Report a problem, of ``node`` if given: raise it at the call that drives a strict graph, else log it."""
+        """Report an error, of ``node`` if given: raise it at the call that drives a strict graph, else log it.
+
+        With ``raise_strict`` False, always log it.
+        """
         if self.strict and raise_strict and self.scheduler.raise_in_driver(error):
             return
         if node is not None:
@@ -283,7 +287,7 @@ class Graph:
         return live
 
     def before_live(self, function: Callable[[], object]) -> None:
-        """Call a slow function in a helper thread when :meth:`live` starts the graph; time stands still meanwhile."""
+        """Register a slow function to call in a helper thread when :meth:`live` starts; time stops meanwhile."""
         self._preparations.append(function)
 
     def _prepare(self) -> None:
@@ -327,7 +331,7 @@ class Graph:
             self.scheduler.run_in_scheduler(self._online.keep_pace, condition)
 
     def offline(self) -> None:
-        """Disconnect from other processes; the nodes of this one keep running. Harmless when repeated."""
+        """Disconnect from other processes; the nodes of this one keep running. Safe to call again."""
         online, self._online = self._online, None
         if online is not None:
             self.scheduler.run_in_scheduler(online.end)
@@ -380,7 +384,7 @@ class Graph:
         return Node(name, self, **options)
 
     def add_node(self, node: Node) -> Path | None:
-        """Add a node; return its log file's path. The Master ends an older node of its name when this one registers."""
+        """Add a node; return the path of its log file, or None. The Master ends an older node of the same name."""
         self.nodes[node.name] = node
         self._nodes_started += 1
         asked = node.remappings.log_file
@@ -455,7 +459,7 @@ _default: dict[str, Graph] = {}
 
 
 def default_graph() -> Graph:
-    """Return the graph that ``Node(name)`` and ``rospy`` use by default; made on first use, in simulated time."""
+    """Return the graph that ``Node(name)`` and ``rospy`` use by default; the first call makes it, in simulated time."""
     if "graph" not in _default:
         _default["graph"] = Graph()
     return _default["graph"]

@@ -15,7 +15,7 @@ HEADER_LIMIT = 1024 * 1024
 
 
 def encode_header(fields: Header) -> bytes:
-    """Encode a connection header: its length, then ``key=value`` fields, each with its length, sorted as in ROS."""
+    """Return a connection header as bytes: its length, then ``key=value`` fields, each after its length, sorted."""
     parts = [f"{key}={value}".encode() for key, value in sorted(fields.items())]
     body = b"".join(struct.pack("<I", len(part)) + part for part in parts)
     return struct.pack("<I", len(body)) + body

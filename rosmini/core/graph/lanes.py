@@ -56,10 +56,10 @@ class LaneContext(Protocol):
 
 
 class Lane:
-    """A first-in, first-out queue of tasks with one blocking point.
+    """A first-in, first-out queue of tasks, which run one after another. While a task blocks, the others wait.
 
     ``node`` is the ROS node that the lane works for, ``context`` the script it belongs to; lanes that are created from
-    it inherit both. ``on_error`` gets an exception that a task raises; without it the exception is raised at
+    it inherit both. ``on_error`` is called with an exception that a task raises; without it the exception is raised at
     the call that drives the graph.
     """
 
@@ -119,7 +119,7 @@ class Lane:
 
     @property
     def waiting_for(self) -> str | None:
-        """The reason why the lane is parked, in words, or None."""
+        """What the lane is parked for, in words, or None."""
         waiter = self.waiter
         return None if waiter is None else waiter.reason
 
@@ -232,7 +232,7 @@ class Waiter:
         self._finish(value, None)
 
     def fail(self, error: BaseException) -> None:
-        """Raise ``error`` in the waiting code."""
+        """End the wait by raising ``error`` in the waiting code. No effect after the wait has ended."""
         self._finish(None, error)
 
     def _finish(self, value: Any, error: BaseException | None) -> None:
@@ -261,7 +261,7 @@ class Waiter:
         return self.done or event is None or event.is_set()
 
     def resume(self) -> greenlet | None:
-        """Return the code to resume; the loop switches to it without keeping a reference to this waiter."""
+        """Return the greenlet to resume; the loop switches to it without keeping a reference to this waiter."""
         self.queued = False
         return self.greenlet
 
@@ -330,16 +330,16 @@ class Waiter:
 
 
 class RemoteWaiter(Waiter):
-    """Waits for an answer from outside this process; the code that wakes it has a wall-clock timeout.
+    """Waits for a response from outside this process; the code that wakes it has a wall-clock timeout.
 
-    Simulated time continues meanwhile, because the other end may need it; only if nothing else is left to do does the
-    queue wait for the answer instead of ending.
+    Simulated time continues meanwhile, because the other end may need it. If nothing else is left to do, the queue
+    waits for the response instead of ending.
     """
 
     __slots__ = ()
 
     def wait(self, timeout_ns: int | None = None) -> bool:
-        """Block like :meth:`Waiter.wait`."""
+        """Block as :meth:`Waiter.wait` does, with the same result and errors."""
         self._scheduler.count_remote(1)
         try:
             return super().wait(timeout_ns)

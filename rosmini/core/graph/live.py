@@ -27,19 +27,19 @@ if TYPE_CHECKING:
     from .lanes import Waiter
 
 SLICE_S = 0.01
-"""Interval between slices: half that between the frames of a view at 50 frames per second."""
+"""Interval between slices [s]: half that between the frames of a view at 50 frames per second."""
 
 BUDGET_S = 0.02
-"""Maximum length of a slice; a single callback that takes longer is not interrupted."""
+"""Maximum length of a slice [s]; a single callback that takes longer is not interrupted."""
 
 LAG_S = 0.5
-"""Maximum delay behind wall time that a live graph makes up for, such as that of drawing a large scene.
+"""Maximum delay [s] that a live graph catches up on, such as the time to draw a large scene.
 
-After a longer delay it continues without making up for the rest.
+After a longer delay it continues without catching up on the rest.
 """
 
 SLEEP = re.compile(r"\btime\s*\.\s*sleep\s*\(")
-"""Finds the call in a cell's text that would block the kernel."""
+"""Matches a call in the text of a cell that would block the kernel."""
 
 STOPPED = (
     "The live graph was stopped. Call live() to go on; with Graph(strict=False) such errors are logged instead, "
@@ -48,7 +48,7 @@ STOPPED = (
 
 
 class LoopDrive(ABC):
-    """Drives ``graph`` in slices in ``loop`` until :meth:`stop`, or until :meth:`over` returns True."""
+    """Drives ``graph`` in slices in ``loop`` until :meth:`stop`, or until :meth:`is_finished` returns True."""
 
     def __init__(self, graph: Graph, loop: asyncio.AbstractEventLoop) -> None:
         self.graph = graph
@@ -59,7 +59,7 @@ class LoopDrive(ABC):
         loop.call_soon_threadsafe(self._step)
 
     def stop(self) -> None:
-        """Stop driving the graph. Safe in any thread; harmless when repeated."""
+        """Stop driving the graph. Safe in any thread, and safe to call again."""
         if self.running:
             self.running = False
             self._loop.call_soon_threadsafe(self._let_go)
@@ -123,9 +123,9 @@ class LoopDrive(ABC):
 class LiveDrive(LoopDrive):
     """Drives ``graph`` at ``rate`` seconds of graph time per second until :meth:`stop`; made by :meth:`Graph.live`.
 
-    A graph in simulated time follows wall time at this rate; one in wall time keeps its own rate. The output of
-    callbacks appears in the cell that drives, or else in the one that called ``live``. An error that
-    would end a ``graph.run()`` is shown there and stops the drive, as does an interrupt while no cell runs.
+    A graph in simulated time follows the wall clock at this rate; one in wall-clock time keeps its own rate. The output
+    of callbacks appears in the cell that drives, or else in the one that called ``live``. An error that would end a
+    ``graph.run()`` is shown there and stops the drive, as does an interrupt while no cell runs.
     """
 
     def __init__(self, graph: Graph, loop: asyncio.AbstractEventLoop, *, rate: float = 1.0) -> None:
@@ -148,7 +148,7 @@ class LiveDrive(LoopDrive):
             self._kernel.events.unregister("pre_run_cell", self._warn_of_sleep)
 
     def _warn_of_sleep(self, info: Any) -> None:
-        """Warn, before a cell runs that calls Python's own sleep, that the graph is paused meanwhile."""
+        """Warn, before a cell that calls ``time.sleep`` runs, that the graph is paused meanwhile."""
         if self.running and SLEEP.search(info.raw_cell or ""):
             sys.stderr.write(
                 "time.sleep() keeps the kernel busy, so the live graph stands still meanwhile. "

@@ -32,7 +32,7 @@ class LocalServiceLink:
         self.header = session.header
 
     def call(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
-        """Pass a request to the session."""
+        """Pass a request to the session, which calls ``reply`` with the response or an error message."""
         self._session.handle(request, reply)
 
     def close(self) -> None:
@@ -52,14 +52,14 @@ class LocalTransport:
         self._numbers = 0
 
     def attach(self, endpoint: Node, uri: str | None = None) -> str:
-        """Make a node reachable."""
+        """Make a node reachable at ``uri``, by default at a new address; return the address."""
         self._numbers += 1
         uri = uri or f"http://rosmini:{self._numbers}/"
         self._endpoints[uri] = endpoint
         return uri
 
     def detach(self, uri: str) -> None:
-        """Make a node unreachable."""
+        """Make the node at ``uri`` unreachable."""
         self._endpoints.pop(uri, None)
 
     def service_uri(self, uri: str) -> str:
@@ -84,17 +84,17 @@ class LocalTransport:
         return [self.protocol, uri] if is_here else None
 
     def endpoint(self, uri: str) -> Node:
-        """Return the node with this address of its slave API or its services. Raises ``TransportTerminated``."""
+        """Return the node whose slave API or services have this address. Raises ``TransportTerminated`` if none has."""
         found = self._endpoints.get(slave_uri(uri))
         if found is None:
             raise TransportTerminated(f"no node answers at {uri}: it has been shut down")
         return found
 
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:
-        """Call a method of a node's slave API."""
+        """Return the response of a node's slave API. Raises ``TransportTerminated`` if the node has shut down."""
         return self.endpoint(uri).slave_call(method, *arguments)
 
-    def retry(self, seconds: float, function: Callable[[], object]) -> bool:  # noqa: ARG002 - the seam's
+    def retry(self, seconds: float, function: Callable[[], object]) -> bool:  # noqa: ARG002 - the interface's
         """Return False: a node that has gone does not come back."""
         return False
 
@@ -103,22 +103,22 @@ class LocalTransport:
 
     def connect_topic(
         self,
-        caller: str,  # noqa: ARG002 - the seam's
+        caller: str,  # noqa: ARG002 - the interface's
         parameters: list[Any],
         header: Header,
         receiver: Connection,
     ) -> tuple[Header, Callable[[], None]]:
-        """Open a topic connection."""
+        """Connect ``receiver`` to a publisher; return the publisher's header, and a function that disconnects."""
         sender = LocalSender(self._scheduler, receiver, header["callerid"])
         reply = self.endpoint(parameters[1]).accept_subscriber(header, sender)
         return reply, sender.drop
 
     def connect_service(
         self,
-        caller: str,  # noqa: ARG002 - the seam's
+        caller: str,  # noqa: ARG002 - the interface's
         service_uri: str,
         header: Header,
-        service_class: Any,  # noqa: ARG002 - the seam's
+        service_class: Any,  # noqa: ARG002 - the interface's
     ) -> ServiceLink:
-        """Open a service connection."""
+        """Return a connection to the service server at ``service_uri``."""
         return LocalServiceLink(self.endpoint(service_uri).accept_client(header))

@@ -18,9 +18,9 @@ LEVEL_NAMES = {1: "DEBUG", 2: "INFO", 4: "WARNING", 8: "ERROR", 16: "CRITICAL"}
 
 
 def log_folder(asked: str | Path | None, run_id: str) -> Path | None:
-    """Make and return the folder for log files: ``<asked or ROS_LOG_DIR>/<run_id>``; None if neither is given.
+    """Make and return the folder for log files, ``<asked>/<run_id>`` or ``<ROS_LOG_DIR>/<run_id>``.
 
-    Raises ``RosminiError`` if it cannot be made.
+    Returns None if neither is given. Raises ``RosminiError`` if the folder cannot be made.
     """
     given = asked or os.environ.get(VARIABLE)
     if not given:
@@ -38,7 +38,7 @@ def log_folder(asked: str | Path | None, run_id: str) -> Path | None:
 
 
 class LogFile:
-    """A log file, written line by line; an error of the disk ends it, and the node continues.
+    """A log file, written line by line. After a disk error it is closed with a warning, and the node continues.
 
     Args:
         path: the file's path.
@@ -59,7 +59,7 @@ class LogFile:
         self._file = self.path.open(self._mode, encoding="utf-8", errors="backslashreplace", newline="\n", buffering=1)
 
     def write(self, logger: str, level: int, now_ns: int, text: str) -> None:
-        """Write one message."""
+        """Write one message of the given logger and level, with the time ``now_ns``."""
         file = self._file
         if file is None:
             return
@@ -69,7 +69,7 @@ class LogFile:
         self._attempt(lambda: file.write(line))
 
     def close(self) -> None:
-        """Close the file. Harmless when repeated."""
+        """Close the file. Safe to call again."""
         file, self._file = self._file, None
         if file is not None:
             self._attempt(file.close)

@@ -2,15 +2,14 @@
 
 The Master introduces nodes to each other and then steps aside: no message goes through it. Each method is one call of
 the Master API (http://wiki.ros.org/ROS/Master_API) or of the Parameter Server API
-(http://wiki.ros.org/ROS/Parameter%20Server%20API): the same name and arguments, and the same answer, a list of
+(http://wiki.ros.org/ROS/Parameter%20Server%20API). It has the same name and arguments, and returns the same list of
 
 - a code: 1 success, 0 failure (the call had a bad effect), -1 error (the call had no effect);
 - a human-readable status text;
 - a value, or a dummy of its type if the call failed.
 
-A call never raises: wrong arguments give the code -1. The
-:class:`~rosmini.core.graph.notices.Notices` inform other nodes; they only post events, so they may be called during the
-Master's own work.
+A call never raises: wrong arguments give the code -1. The :class:`~rosmini.core.graph.notices.Notices` inform other
+nodes; they only post events, so a method of the Master may call them while it works.
 """
 
 # ruff: noqa: ARG002 - every call has a caller_id, whether it needs one or not
@@ -43,7 +42,7 @@ P = ParamSpec("P")
 
 
 class _Invalid(Exception):
-    """An argument breaks the API's rules; the text becomes the status of the answer."""
+    """An argument breaks the API's rules; the text becomes the status of the response."""
 
 
 def _text(argument: str) -> Check:
@@ -112,7 +111,7 @@ def _subgraph(value: Any, caller: str) -> str:
 def _api(
     on_error: Any, *checks: Check
 ) -> Callable[[Callable[Concatenate[Master, P], Triple]], Callable[Concatenate[Master, P], Triple]]:
-    """Make an API method: check the arguments after ``caller_id``, and answer errors with the value ``on_error``."""
+    """Decorate an API method: check the arguments after ``caller_id``, and return the value ``on_error`` for errors."""
 
     def failed(code: int, status: str) -> Triple:
         return [code, status, wire_copy(on_error)]
@@ -189,7 +188,7 @@ class _Registry:
 
 
 class Master(MasterPort):
-    """A ROS Master with its Parameter Server: a plain object that can be served in process or over XML-RPC.
+    """A ROS Master with its Parameter Server: a plain object, to be called directly or served over XML-RPC.
 
     Args:
         uri: the address that ``getUri`` returns.
@@ -362,7 +361,7 @@ class Master(MasterPort):
 
     @_api(0, _key)
     def getParam(self, caller_id: str, key: str) -> Triple:
-        """Return a parameter, or the namespace ``key`` as a dictionary."""
+        """Return a parameter, or the namespace ``key`` as a dictionary; the code is -1 if it is not set."""
         try:
             return [1, f"Parameter [{key}]", self._parameters.get(key)]
         except KeyError:
@@ -375,7 +374,7 @@ class Master(MasterPort):
 
     @_api(0, _key)
     def deleteParam(self, caller_id: str, key: str) -> Triple:
-        """Delete a parameter, or the whole namespace ``key``."""
+        """Delete a parameter, or the whole namespace ``key``; the code is -1 if it is not set."""
         try:
             self._parameters.delete(key)
         except KeyError:
@@ -385,7 +384,7 @@ class Master(MasterPort):
 
     @_api(0, _text("key"))
     def searchParam(self, caller_id: str, key: str) -> Triple:
-        """Return the full name of the nearest ``key``, going up from the caller's own name."""
+        """Return the full name of the nearest ``key``, going up from the caller's own name, or the code -1."""
         found = self._parameters.search(caller_id, key)
         if found is None:
             return [-1, f"Cannot find parameter [{key}] in an upwards search", ""]

@@ -1,8 +1,8 @@
 """Access to the Master: all calls go through one port, which may take time, may fail and may park the caller's lane.
 
-In process the :class:`~rosmini.core.graph.master.Master` is the port itself and answers at once. A Master elsewhere is
-another :class:`MasterPort`. Nodes and tools do not call a port directly: each has a :class:`MasterProxy`, which keeps
-its calls in order and retries where ROS does.
+A :class:`~rosmini.core.graph.master.Master` in this process is itself the port, and responds at once; a Master
+elsewhere needs another :class:`MasterPort`. Nodes and tools do not call a port directly: each has a
+:class:`MasterProxy`, which keeps its calls in order and retries where ROS does.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ RETRY_NS = 200_000_000
 """Delay before a node retries a registration, as in rospy [ns]."""
 
 LEAVE_NS = 2_000_000_000
-"""Time for which a node that ends tries to unregister at a Master that does not answer [ns]."""
+"""Time for which a node that ends tries to unregister at a Master that does not respond [ns]."""
 
 
 class MasterPort(ABC):
@@ -67,17 +67,17 @@ class MasterPort(ABC):
     uri: str
     """The Master's address."""
     is_local = False
-    """True for a Master in this process: it answers at once, in any thread, and its notifier reports every change."""
+    """True for a Master in this process: it responds at once, in any thread, and its notifier reports every change."""
     keeps_trying = True
-    """False if a registration that gets no answer fails instead of being tried again."""
+    """False if a registration without a response fails instead of being tried again."""
     leave_by: int | None = None
-    """Graph time until which nodes that end try to unregister; None while the Master answers."""
+    """Graph time [ns] until which nodes that end try to unregister; None while the Master responds."""
 
     @abstractmethod
     def call(self, method: str, caller_id: str, *arguments: Any) -> Triple:
-        """Return the Master's answer: [code, status, value]. May park the calling lane.
+        """Return the Master's response: [code, status, value]. May park the calling lane.
 
-        Raises ``MasterUnreachable`` if there is no answer; the call may still have had its effect.
+        Raises ``MasterUnreachable`` if there is no response; the call may still have had its effect.
         """
 
     def __getattr__(self, name: str) -> Callable[..., Triple]:
@@ -87,10 +87,10 @@ class MasterPort(ABC):
 
 
 class MasterProxy:
-    """The Master as seen by one caller.
+    """Calls the Master on behalf of one node or tool, whose name is ``caller_id``.
 
-    Its calls reach the Master one after another, in the order in which they were made. ``caller_id`` is the name of the
-    node or the tool. ``stop_reason`` returns the reason not to retry a registration, or None.
+    The calls reach the Master one after another, in the order in which they were made. ``stop_reason`` returns the
+    reason not to retry a registration, or None.
     """
 
     def __init__(self, graph: Graph, caller_id: str, stop_reason: Callable[[], str | None] = lambda: None) -> None:
@@ -113,7 +113,7 @@ class MasterProxy:
         self._moved = {old: addresses.get(new, new) for old, new in self._moved.items()} | dict(addresses)
 
     def call(self, method: str, *arguments: Any) -> Triple:
-        """Return the Master's answer: [code, status, value]. Raises ``MasterUnreachable``."""
+        """Return the Master's response: [code, status, value]. Raises ``MasterUnreachable`` if there is none."""
         port = self._graph.master
         if port.is_local:
             self._graph.scheduler.charge(MASTER_TICKS)
@@ -122,7 +122,7 @@ class MasterProxy:
             return self._reach(self._graph.master, method, arguments)
 
     def _reach(self, port: MasterPort, method: str, arguments: tuple[Any, ...]) -> Triple:
-        """Call a Master method through ``port`` and return its answer; record the call if the graph is recording."""
+        """Call a method of the Master and return its response; record the call if the graph is recording."""
         answer: Triple
         if port.is_local:
             answer = getattr(port, method)(self._caller_id, *arguments)
@@ -134,9 +134,10 @@ class MasterProxy:
         return answer
 
     def ask(self, method: str, *arguments: Any) -> Any:
-        """Return the value of the Master's answer.
+        """Return the value of the Master's response.
 
-        Raises ``ROSException`` with the Master's status if the code is not 1, and ``MasterUnreachable``.
+        Raises ``ROSException`` with the Master's status if the code is not 1, and ``MasterUnreachable`` if there is no
+        response.
         """
         return self._value(method, self.call(method, *arguments))
 
@@ -147,12 +148,15 @@ class MasterProxy:
         return value
 
     def find(self, method: str, *arguments: Any) -> Any:
-        """Return the value of the Master's answer, or None if the code is not 1. Raises ``MasterUnreachable``."""
+        """Return the value of the Master's response, or None if the code is not 1.
+
+        Raises ``MasterUnreachable`` if there is no response.
+        """
         code, _, value = self.call(method, *arguments)
         return value if code == 1 else None
 
     def insist(self, method: str, *arguments: Any, warn: Callable[[str], None]) -> Triple:
-        """Like :meth:`call`, but keep trying while the Master does not answer; ``warn`` once.
+        """Return the Master's response as :meth:`call`, but keep trying until there is one, and call ``warn`` once.
 
         Raises ``ROSInterruptException`` if the caller ends meanwhile.
         """
@@ -184,13 +188,13 @@ class MasterProxy:
         return tuple(self._moved.get(each, each) if isinstance(each, str) else each for each in arguments)
 
     def register(self, method: str, *arguments: Any, warn: Callable[[str], None]) -> Any:
-        """Like :meth:`ask`, but keep trying like :meth:`insist`."""
+        """Return the value of the response, or raise, as :meth:`ask`, but keep trying as :meth:`insist`."""
         return self._value(method, self.insist(method, *arguments, warn=warn))
 
     def unregister(self, method: str, *arguments: Any, warn: Callable[[str], None]) -> None:
-        """Remove a registration; after failed attempts only ``warn``, once for all nodes that end at that time.
+        """Remove a registration. It is not an error if the Master no longer has it.
 
-        It is not an error if the Master has forgotten the registration.
+        After failed attempts only ``warn`` is called, once for all nodes that end at that time.
         """
         if self.skips_unregister:
             return
@@ -245,7 +249,7 @@ class MasterProxy:
 
     @contextmanager
     def _turn(self) -> Iterator[None]:
-        """Wait until this caller's earlier calls have ended."""
+        """Wait until this caller's earlier calls have ended; at the end of the block, let the next one start."""
         with self._lock:
             waiter = None
             if self._busy:

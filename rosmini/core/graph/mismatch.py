@@ -1,7 +1,4 @@
-"""Compare the types at both ends of a topic or service.
-
-If their md5 sums are equal, convert a message from one type to the other.
-"""
+"""Comparison of the types at both ends of a topic or service, and conversion between types with equal md5 sums."""
 
 from __future__ import annotations
 
@@ -58,10 +55,9 @@ def describe_mismatch(topic: str, publisher: Header, subscriber: Header) -> str:
 
 
 def recast(message: Any, message_class: Any) -> Any:
-    """Convert ``message`` to a frozen message of ``message_class``, which has the same md5 sum.
+    """Return ``message`` as a frozen message of ``message_class``, which has the same md5 sum.
 
-    Encodes and decodes it, as a network connection would.
-
-    Raises ``DeserializationError`` if the types do not match after all.
+    The message is encoded and decoded, as by a network connection. Raises ``DeserializationError`` if the types do not
+    match after all.
     """
     return message_class._decode(type(message)._encode(message))

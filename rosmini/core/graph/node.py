@@ -56,10 +56,10 @@ if TYPE_CHECKING:
 
 
 TICKS_PER_REFUSAL = 100
-"""Ticks of a refused blocking call of a node that was shut down, in a loop that never blocks: raising is expensive."""
+"""Number of ticks charged for a blocking call that raises because its node was shut down: raising is expensive."""
 
 POLL_NS = 100_000_000
-"""Interval at which a Master in another process is asked for changes [ns]."""
+"""Interval at which a Master in another process is queried for changes [ns]."""
 
 
 class Node:
@@ -71,9 +71,10 @@ class Node:
         namespace: the namespace in which relative names of this node are resolved (``__ns:=``).
         remappings: ``{"chatter": "/robot1/chatter"}``, or a :class:`~rosmini.core.names.Remappings`.
         anonymous: append a number that makes the name unique.
+        context: the script that the node belongs to, or None.
         has_rosout: publish the node's log on ``/rosout``.
 
-    A running node of the same name is shut down, as in ROS. Raises ``IllegalName``.
+    A running node of the same name is shut down, as in ROS. Raises ``IllegalName`` for an illegal name or namespace.
 
     """
 
@@ -129,7 +130,7 @@ class Node:
         self.scheduler.run_in_scheduler(lambda: self._start(has_rosout=has_rosout))
 
     def _start(self, *, has_rosout: bool) -> None:
-        """Register: the Master learns of the node by its first registration, that of ``/rosout`` if the node has it."""
+        """Register the node and its basic services at the Master, and choose its clock."""
         graph = self.graph
         self.uri = graph.transport.attach(self)
         log_file = graph.add_node(self)
@@ -237,10 +238,13 @@ class Node:
         ``queue_size`` limits the messages that wait while a callback blocks (None: no limit; the oldest are dropped).
         With ``takes_batches``, as in rospy, all messages that wait when a callback returns are delivered, even if newer
         ones arrive meanwhile; otherwise newer messages replace them, as in roscpp.
-        ``numpy`` gives numeric arrays as read-only numpy arrays, else as rospy's tuples. ``receipt`` overrides both:
-        see ``Subscriber.thaw_for``. ``tcp_nodelay`` asks publishers of other processes to send each message at once.
-        ``skip_own_mismatch`` allows this node itself to publish the topic with another type, as roscpp does. All
-        subscribers of this node to one topic get the same object, in the form that the first one requested. Raises
+
+        With ``numpy``, numeric arrays are read-only numpy arrays, otherwise tuples as in rospy. ``receipt`` overrides
+        both: see ``Subscriber.thaw_for``. All subscribers of this node to one topic get the same object, in the form
+        that the first one requested.
+
+        With ``tcp_nodelay``, publishers of other processes are asked to send each message at once.
+        ``skip_own_mismatch`` allows this node itself to publish the topic with another type, as roscpp does. Raises
         ``TypeMismatch`` for a type whose md5 sum differs from that of the first subscriber.
         """
 
@@ -291,12 +295,12 @@ class Node:
             del self.subscriptions[topic]
             self.slave.topics_changed()
             raise
-        # Updates from the Master since then are newer than this answer, and the node may have left the topic by now.
+        # Updates from the Master since then are newer than this response, and the node may have left the topic by now.
         if subscription.updates == before and self.subscriptions.get(topic) is subscription:
             subscription.update_publishers(uris)
 
     def publishers_changed(self, topic: str, uris: list[str]) -> None:
-        """Called when the Master reports the current publishers of a topic."""
+        """Connect to the current publishers of a topic, which the Master has reported."""
         subscription = self.subscriptions.get(topic)
         if subscription is not None:
             subscription.update_publishers(uris)
@@ -337,7 +341,7 @@ class Node:
     def service(
         self, name: str, service_class: Any, handler: Callable[[Any], Any], *, numpy: bool = True
     ) -> ServiceServer:
-        """Offer a service: ``handler(request)`` returns the response.
+        """Offer a service, and return its server; ``handler(request)`` returns the response.
 
         Raises ``ROSException`` if this node offers it already.
         """
@@ -361,7 +365,7 @@ class Node:
         )
 
     def wait_for_service(self, name: str, timeout: float | None = None) -> None:
-        """Block until a node offers the service and answers. Raises ``ROSException`` after ``timeout`` seconds."""
+        """Block until a node that responds offers the service. Raises ``ROSException`` after ``timeout`` seconds."""
         self.services.wait_for(name, timeout)
 
     # -- parameters ----------------------------------------------------------------------------------------------
@@ -369,8 +373,8 @@ class Node:
     def get_param(self, name: str, default: Any = UNSET, *, expect: type | tuple[type, ...] | None = None) -> Any:
         """Return a parameter's value, or ``default`` if it is not set.
 
-        With ``expect`` a value of another type is an error (an int is accepted for a float). Raises
-        ``ParameterNotSet``, which names similar parameters.
+        Raises ``ParameterNotSet``, which names similar parameters, if it is not set and there is no default. Raises
+        ``ParameterError`` if the value does not have a type in ``expect`` (an int is accepted for a float).
         """
         return self.parameters.get(name, default, expect=expect)
 
@@ -383,7 +387,7 @@ class Node:
         return self.parameters.has(name)
 
     def delete_param(self, name: str) -> None:
-        """Delete a parameter or a tree. Raises ``ParameterNotSet``."""
+        """Delete a parameter or a tree of them. Raises ``ParameterNotSet`` if it is not set."""
         self.parameters.delete(name)
 
     def search_param(self, name: str) -> str | None:
@@ -415,23 +419,23 @@ class Node:
     # -- log messages --------------------------------------------------------------------------------------------
 
     def logdebug(self, text: object, **options: Unpack[LogOptions]) -> None:
-        """Log at level DEBUG."""
+        """Log ``text`` at level DEBUG."""
         self.logger.write("DEBUG", text, **options)
 
     def loginfo(self, text: object, **options: Unpack[LogOptions]) -> None:
-        """Log at level INFO."""
+        """Log ``text`` at level INFO."""
         self.logger.write("INFO", text, **options)
 
     def logwarn(self, text: object, **options: Unpack[LogOptions]) -> None:
-        """Log at level WARN."""
+        """Log ``text`` at level WARN."""
         self.logger.write("WARN", text, **options)
 
     def logerr(self, text: object, **options: Unpack[LogOptions]) -> None:
-        """Log at level ERROR."""
+        """Log ``text`` at level ERROR."""
         self.logger.write("ERROR", text, **options)
 
     def logfatal(self, text: object, **options: Unpack[LogOptions]) -> None:
-        """Log at level FATAL."""
+        """Log ``text`` at level FATAL."""
         self.logger.write("FATAL", text, **options)
 
     # -- time ----------------------------------------------------------------------------------------------------
@@ -441,7 +445,7 @@ class Node:
         return Time.from_nsec(self.clock.now_ns())
 
     def sleep(self, duration: float | Duration) -> None:
-        """Block for seconds of the node's time; for zero or less, only let other lanes run.
+        """Block for ``duration`` [s] of the node's time; for zero or less, only let other lanes run.
 
         Raises ``ROSInterruptException`` if the node shuts down meanwhile, ``ROSTimeMovedBackwardsException`` if its
         clock jumps back.
@@ -449,7 +453,7 @@ class Node:
         self.sleep_ns(duration.to_nsec() if isinstance(duration, Duration) else int(duration * 1e9))
 
     def sleep_ns(self, span: int) -> None:
-        """Block for nanoseconds of the node's time; see :meth:`sleep`."""
+        """Block for ``span`` [ns] of the node's time; see :meth:`sleep`."""
         if span <= 0 and not self._stopped:
             self.scheduler.yield_to_others()  # a loop that cannot keep its rate must not block the other lanes
         if self._stopped:
@@ -603,7 +607,10 @@ class Node:
     def callback_failed(
         self, error: Exception, callback: Callable[..., object], where: str, message: Any, *, service: bool = False
     ) -> None:
-        """Report an exception of a callback, with the line of the user's code, ``where`` and the message."""
+        """Report an exception of a callback, with the line of the user's code, ``where`` and the message.
+
+        An exception of a ``service`` handler is only logged, even if the graph is strict: the client receives it too.
+        """
         if self._is_by_shutdown(error):
             return
         problem = describe_failure(error, callback, where, message, self.name)
@@ -650,9 +657,9 @@ class Node:
         self._hooks.append(hook)
 
     def shutdown(self, reason: str = "", *, hooks: bool = True) -> None:
-        """Shut the node down: hooks, then blocked calls, then connections and registrations. Harmless when repeated.
+        """Run the shutdown hooks, end blocked calls, close connections, and unregister. Safe to call again.
 
-        Without ``hooks``, none is called, and a running hook is not waited for.
+        With ``hooks`` False, no hook runs, and the call does not wait for one that is already running.
         """
         self.scheduler.run_in_scheduler(lambda: self._shutdown(reason, hooks=hooks))
 
@@ -747,11 +754,14 @@ class Node:
     # -- called by the transports --------------------------------------------------------------------------------
 
     def slave_call(self, method: str, *arguments: Any) -> Triple:
-        """Answer a call of the slave API."""
+        """Return the response to a call of the slave API: [code, status, value]."""
         return self.slave.call(method, *arguments)
 
     def accept_subscriber(self, header: Header, sender: Sender) -> Header:
-        """Accept a subscriber's connection. Raises ``TransportInitError`` if the node does not publish the topic."""
+        """Accept a subscriber's connection; return the header for it.
+
+        Raises ``TransportInitError`` if the node does not publish the topic, or the subscriber's type does not match.
+        """
         publication = None if self._stopped else self.publications.get(header.get("topic", ""))
         if publication is None:
             raise TransportInitError(
@@ -761,7 +771,10 @@ class Node:
         return publication.accept(header, sender)
 
     def accept_client(self, header: Header) -> Session:
-        """Accept a service client's connection. Raises ``TransportInitError`` if the node lacks the service."""
+        """Accept a service client's connection; return its session.
+
+        Raises ``TransportInitError`` if the node does not offer the service.
+        """
         return self.services.accept(header)
 
     def next_connection_id(self) -> int:
@@ -770,6 +783,6 @@ class Node:
         return self._connections
 
     def connections_changed(self) -> None:
-        """Called when a connection has opened or closed."""
+        """Notify the slave API, and code that waits for a change, that a connection has opened or closed."""
         self.slave.connections_changed()
         self.graph.changes.notify()

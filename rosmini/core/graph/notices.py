@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class Changes:
-    """Conditions that waiters wait for; each is evaluated whenever the graph changes."""
+    """Conditions that end waits; each is evaluated whenever the graph changes."""
 
     def __init__(self, scheduler: Scheduler) -> None:
         self._scheduler = scheduler
@@ -72,8 +72,9 @@ LIMIT = 1_000
 class Notices:
     """Delivers the Master's notices to the nodes, after the registration that caused them.
 
-    Each node gets its notices in order; a node that does not answer delays no other. ``call(uri, method, caller_id,
-    *arguments)`` calls a node's slave API; ``on_error`` gets all other errors. Any thread may post.
+    Each node gets its notices in order, and a node that does not respond does not delay the others. ``call(uri, method,
+    caller_id, *arguments)`` calls a node's slave API. ``on_error`` is called with errors other than
+    ``TransportException``, which is ignored. Safe in any thread.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""A node's view of parameters (http://wiki.ros.org/Parameter%20Server)."""
+"""A node's access to the Parameter Server (http://wiki.ros.org/Parameter%20Server), and checks of values."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ def _is_in(name: str, tree: str) -> bool:
 class ParameterClient:
     """A node's access to the Parameter Server; :class:`~rosmini.core.graph.node.Node` has short names for it.
 
-    All methods raise ``MasterUnreachable`` if the Master does not answer.
+    All methods raise ``MasterUnreachable`` if the Master does not respond.
     """
 
     def __init__(self, node: Node) -> None:
@@ -114,8 +114,9 @@ class ParameterClient:
     def get(self, name: str, default: Any = UNSET, *, expect: type | tuple[type, ...] | None = None) -> Any:
         """Return a parameter's value, or ``default`` if it is not set.
 
-        With ``expect`` a value of another type is an error (an int is accepted for a float). Raises
-        ``ParameterNotSet``, which names similar parameters and other namespaces that contain this one.
+        Raises ``ParameterNotSet``, which names similar parameters and other namespaces that contain this one, if it is
+        not set and there is no default. Raises ``ParameterError`` if the value does not have a type in ``expect`` (an
+        int is accepted for a float).
         """
         resolved = self._node.resolve_parameter(name)
         code, _, value = self._node.master.call("getParam", resolved)
@@ -152,7 +153,7 @@ class ParameterClient:
         return bool(self._node.master.ask("hasParam", self._node.resolve_parameter(name)))
 
     def delete(self, name: str) -> None:
-        """Delete a parameter or a tree. Raises ``ParameterNotSet``."""
+        """Delete a parameter or a tree of them. Raises ``ParameterNotSet`` if it is not set."""
         resolved = self._node.resolve_parameter(name)
         if self._node.master.call("deleteParam", resolved)[0] != 1:
             raise ParameterNotSet(self._not_set(name, resolved))
@@ -171,8 +172,8 @@ class ParameterClient:
         """Call ``callback(value)`` when a parameter, or any parameter in a tree, changes; return its current value.
 
         ``{}`` means that the parameter is not set, as in ROS. The node is not notified of values that it sets
-        itself, and setting a parameter to its current value is not a change.
-        Raises ``ROSException`` if the Master refuses.
+        itself, and setting a parameter to its current value is not a change. Raises ``ROSException`` if the Master
+        refuses.
         """
         resolved = self._node.resolve_parameter(name)
         if not self._callbacks:
@@ -218,11 +219,11 @@ class ParameterClient:
         """Return True if :meth:`watch` was called for this parameter or for a namespace that contains it."""
         return any(_is_in(canonicalize(key), name) for name in self.watched)
 
-    def changed(self, key: str, value: Any) -> None:  # noqa: ARG002 - what the Master says
-        """Called when the Master reports a change of a parameter to which this node subscribes.
+    def changed(self, key: str, value: Any) -> None:  # noqa: ARG002 - the Master sends it
+        """Call the callbacks if a parameter whose change the Master has reported has a new value.
 
-        The Master calls once for each subscription, so one change may be reported several times, and the value may have
-        changed again since then.
+        The Master reports once for each subscription, so one change may be reported several times, and the value may
+        have changed again since then.
         """
         if self._lane is None:
             self._lane = self._node.spawn(f"{self._node.name} parameters")

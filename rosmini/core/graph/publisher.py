@@ -1,7 +1,7 @@
 """Publishers: one :class:`Publication` for each node and topic, and a :class:`Publisher` handle for each user of it.
 
 A message goes from here to a :mod:`~rosmini.core.graph.connection` for each subscriber, waits there for its lane
-(:mod:`~rosmini.core.graph.lanes`), and is then given to the user's callbacks (:mod:`~rosmini.core.graph.callbacks`).
+(:mod:`~rosmini.core.graph.lanes`), and is then passed to the user's callbacks (:mod:`~rosmini.core.graph.callbacks`).
 """
 
 from __future__ import annotations
@@ -37,10 +37,10 @@ def _packet(frozen: Any) -> bytes:
 class MessageFactory:
     """A message that is made only if it has a receiver: ``publish(MessageFactory(make))`` sends ``make()``.
 
-    For large or frequent messages that usually have no subscriber: a latching publisher makes its last one when a
-    subscriber connects. The data that ``make`` uses must not change afterwards. With ``is_frozen`` the result comes
-    from a :func:`rosmini.msgs.template`: no other code holds it, and it is not copied. With ``keeps_number`` its
-    header keeps the sequence number, as is right for a message that another node published first.
+    Use it for large or frequent messages that usually have no subscriber. A latching publisher makes its last one when
+    a subscriber connects. The data that ``make`` uses must not change afterwards. With ``is_frozen`` the result comes
+    from a :func:`rosmini.msgs.template`: no other code holds it, and it is not copied. With ``keeps_number`` its header
+    keeps its sequence number, for a message that another node published first.
     """
 
     __slots__ = ("is_frozen", "keeps_number", "make")
@@ -71,7 +71,7 @@ class Publication:
         self._wires: tuple[Sender, ...] = ()
         self._header: Header | None = None
         self._only: QueuedSender | None = None
-        """The only connection, if it is in this process and there is nothing to do but send: the usual case."""
+        """The only connection, if it is in this process and messages need only be sent: the usual case."""
         self._latched: Any = None
         """The last message, frozen, or a `MessageFactory` that has not made it yet."""
         self.warns_unheard = True
@@ -138,7 +138,7 @@ class Publication:
                 header.seq = self._next_number()
 
     def connections_changed(self) -> None:
-        """Called when a connection was added or closed, or when a recording has begun or ended."""
+        """Choose how :meth:`send` works, after a connection was added or closed, or a recording has begun or ended."""
         senders = self.senders.values()
         self._local = tuple(sender for sender in senders if isinstance(sender, QueuedSender))
         self._wires = tuple(sender for sender in senders if not isinstance(sender, QueuedSender))
@@ -210,7 +210,7 @@ class Publication:
         )
 
     def accept(self, header: Header, sender: Sender) -> Header:
-        """Accept a subscriber's connection.
+        """Accept a subscriber's connection; return the header for it.
 
         Raises ``TransportInitError`` if the md5 sums differ: the type's name does not matter, as in ROS.
         """
@@ -327,7 +327,7 @@ class Publisher(TopicHandle):
             publication.send(self._build(() if message is _NOTHING else (message, *args), fields))
 
     def expect_nobody(self) -> None:
-        """Do not warn of messages that are published without connections."""
+        """Do not warn about messages that are published without connections."""
         if self._publication is not None:
             self._publication.warns_unheard = False
 
@@ -337,7 +337,7 @@ class Publisher(TopicHandle):
             self._publication.how_to_wait = how_to_wait
 
     def publish_to(self, destination: str, message: Any) -> None:
-        """Publish ``message`` to one connected node only; harmless if that node has gone.
+        """Publish ``message`` only to the node ``destination``; no effect if that is not connected.
 
         Raises the same exceptions as :meth:`publish`.
         """
@@ -399,5 +399,5 @@ class Publisher(TopicHandle):
                 self.node.drop_publication(publication)
 
     def detach(self) -> None:
-        """Called when the node has shut down."""
+        """Stop publishing after the node has shut down."""
         self._publication = None

@@ -1,4 +1,4 @@
-"""How a run of a graph ended."""
+"""Reports of how a run of a graph ended."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ class Waiting(NamedTuple):
 class RunReport(NamedTuple):
     """How a run ended: ``reason`` is "time", "condition", "drained" or "stopped"; ``now`` is the graph time in seconds.
 
-    Its text lists the parked lanes only if nothing is left to happen: after a run of some seconds nodes always
-    wait.
+    The text of the report lists the parked lanes only if no event is left ("drained"), since otherwise it is normal
+    that nodes wait.
     """
 
     reason: str

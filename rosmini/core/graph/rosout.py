@@ -31,11 +31,11 @@ INTERNAL = ("rospy", "rospy.client", "rospy.core", "rospy.init", "rospy.internal
 OWN = str(Path(__file__).resolve().parents[2]) + os.sep
 """Common prefix of the names of rosmini's own source files."""
 LOGGING = (str(Path(__file__).parent) + os.sep, str(Path(OWN, "ros", "rospy")) + os.sep)
-"""Prefixes of those files that log on behalf of others; built-in nodes are elsewhere."""
+"""Prefixes of those of rosmini's files that log on behalf of other code; built-in nodes are elsewhere."""
 
 
 def source_of(filename: str) -> str:
-    """Return the name of a source file for log messages; a notebook's cells have random file names."""
+    """Return the name of a source file for log messages: "notebook" for cells, whose file names are random."""
     if "ipykernel" in filename or filename.startswith("<"):
         return "notebook"
     return filename
@@ -87,7 +87,7 @@ class LoggerTree:
         self.level(name)
 
     def listing(self) -> list[tuple[str, int]]:
-        """Return the name and the level of each known logger."""
+        """Return the name and the level number of each known logger."""
         return [(name, self.level(name)) for name in self._known]
 
 
@@ -95,7 +95,7 @@ class LogOptions(TypedDict, total=False):
     """The options of a log call."""
 
     throttle: float | None
-    """Log at most once in this number of seconds of the node's time from this place in the program."""
+    """Log at most once in this period [s] of the node's time from this place in the program."""
     identical: bool
     """Log only a text that has changed; with ``throttle``, repeat the same text when it is due."""
     once: bool
@@ -113,7 +113,7 @@ class LogGates:
         self._seen: set[Hashable] = set()
 
     def is_due(self, where: Hashable, now_ns: int, period_ns: int) -> bool:
-        """Return True if more than ``period_ns`` have passed since this place was due, or if time has jumped back."""
+        """Return True for the first call with ``where``, and then once in each ``period_ns`` or if time jumps back."""
         last = self._times.get(where)
         if last is not None and last <= now_ns <= last + period_ns:
             return False
@@ -121,7 +121,7 @@ class LogGates:
         return True
 
     def is_new(self, where: Hashable, text: str) -> bool:
-        """Return True if this place logs a different text from last time."""
+        """Return True if ``text`` differs from the last one logged at this place."""
         changed = self._texts.get(where) != text
         self._texts[where] = text
         return changed
@@ -168,7 +168,7 @@ class Logger:
         now = node.now()
         shown = _shown(now)
         if isinstance(node.clock, TopicClock):
-            shown = f"{_shown(node.graph.now())}, {shown}"  # as in rospy: the wall time, then the time of /clock
+            shown = f"{_shown(node.graph.now())}, {shown}"  # as in rospy: wall-clock time, then the time of /clock
         if is_shown:
             self.console(level, f"[{NAMES[level]}] [{shown}]: {text}")
         publication = node.publications.get("/rosout")
@@ -207,14 +207,14 @@ class Logger:
         return None if self._file is None else self._file.path
 
     def open_file(self, path: Path) -> None:
-        """Write to a log file from now on."""
+        """Write messages to the log file ``path`` from now on, starting with rospy's first lines."""
         node = self._node
         self._file = LogFile(path, simulated=node.graph.simulated)
         self.log(LEVELS["INFO"], f"init_node, name[{node.name}]", logger="rospy.client")
         self.log(LEVELS["INFO"], f"ROS Slave URI: [{node.uri}]", logger="rospy.init")
 
     def close_file(self) -> None:
-        """Write the last line of the log file and close it. Harmless when repeated."""
+        """Write the last line of the log file and close it. Safe to call again."""
         if self._file is not None:
             self.log(LEVELS["INFO"], f"signal_shutdown [{self._node.shutdown_reason or ''}]", logger="rospy.core")
             self._file.close()
@@ -223,7 +223,7 @@ class Logger:
     # -- output -------------------------------------------------------------------------------------------------
 
     def console(self, level: int, line: str) -> None:
-        """Write a line, to standard error for WARN and above, as rospy does.
+        """Write a line to the console: to standard error for WARN and above, as rospy does.
 
         In a notebook every line goes to standard output, unless that is redirected to a log.
         """
@@ -257,7 +257,7 @@ class Logger:
         self.tree.set(logger.removeprefix("ros."), LEVELS[level.upper()])
 
     def listing(self) -> list[tuple[str, str]]:
-        """Return (logger, level) pairs."""
+        """Return the name and the level of each known logger, such as ("rosout", "INFO")."""
         return [(name, NAMES[level]) for name, level in self.tree.listing()]
 
 

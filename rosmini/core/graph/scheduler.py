@@ -1,8 +1,9 @@
 """The scheduler: one thread, one event queue, two clocks.
 
 Everything that happens in a graph is an event in one queue ordered by (time, sequence number). In simulated time the
-queue jumps from event to event, as fast as the machine allows and in the same order on each run; in wall time events
-wait until they are due. Code that blocks is parked (see :mod:`rosmini.core.graph.lanes`), and the queue continues.
+queue jumps from event to event, as fast as the machine allows and in the same order on each run; in wall-clock time
+events wait until they are due. Code that blocks is parked (see :mod:`rosmini.core.graph.lanes`), and the queue
+continues.
 
 The loop has neither a thread nor a greenlet for itself: code that blocks hands the loop to a worker greenlet, which
 runs the events, calls the callbacks directly, and is itself left parked when one of them blocks. A callback that does
@@ -34,7 +35,7 @@ T = TypeVar("T")
 E = TypeVar("E", bound=BaseException)
 
 ROUNDS_PER_POLL = 16
-"""Number of rounds after which timers and other threads are checked while lanes only wake one another."""
+"""Number of rounds after which the loop checks timers and other threads while lanes only wake one another."""
 
 TICKS_PER_YIELD = 1_000
 """Ticks, about a microsecond each, that a polling loop uses before the other lanes run."""
@@ -43,7 +44,7 @@ FREE_TURNS = 100
 """Number of consecutive turns of a loop, without a blocking call, in which calls of ROS cost no ticks."""
 
 CALL_TICKS = 49
-"""Ticks of a publish, a printed line or a lookup: 50 us with the turn itself. In rospy a publish takes 85 us."""
+"""Ticks charged for a publish, a printed line or a lookup: 50 us with the turn itself. In rospy it takes 85 us."""
 
 POLLING_TICKS = 3_000_000
 """Ticks that calls of ROS use without a blocking call before the script is warned that it keeps polling."""
@@ -54,7 +55,7 @@ class Scheduler(EventQueue):
 
     Args:
         simulated: jump from event to event instead of waiting for the wall clock.
-        rate: in wall time, the seconds of graph time that pass in one second.
+        rate: in wall-clock time, the seconds of graph time that pass in one second.
 
     """
 
@@ -96,7 +97,10 @@ class Scheduler(EventQueue):
         return self._current if ident == self.thread else self._thread_lanes.get(ident, self.root)
 
     def adopt_thread(self, name: str, *, node: Any = None, context: LaneContext | None = None) -> Lane:
-        """Set the node and the script for which the calling thread works. Undo with :meth:`release_thread`."""
+        """Set the node and the script for which the calling thread works; return its lane.
+
+        Undo this with :meth:`release_thread`.
+        """
         lane = Lane(self, name, node=node, context=context)
         self._thread_lanes[get_ident()] = lane
         adopt_thread(self._reference)
@@ -116,7 +120,7 @@ class Scheduler(EventQueue):
         context: LaneContext | None = None,
         on_error: Callable[[BaseException], None] | None = None,
     ) -> Lane:
-        """Make a lane, running ``task`` if given; by default node and context are the caller's."""
+        """Return a new lane, which runs ``task`` if given; by default node and context are the caller's."""
         parent = self.current()
         lane = Lane(
             self,
@@ -139,8 +143,8 @@ class Scheduler(EventQueue):
     def run_in_scheduler(self, function: Callable[..., T], *arguments: Any) -> T:
         """Return ``function(*arguments)``, run in the scheduler's thread, in a lane with the caller's node and context.
 
-        A call from another thread goes through the inbox and waits for the answer. If no thread drives, it soon warns
-        about the wait; in wall time it instead takes over the scheduler for the duration of the call.
+        A call from another thread goes through the inbox and waits for the result. If no thread drives, it soon warns
+        about the wait; in wall-clock time it instead takes over the scheduler for the duration of the call.
         """
         if get_ident() == self.thread:
             return function(*arguments)
@@ -154,7 +158,7 @@ class Scheduler(EventQueue):
     # -- blocking ------------------------------------------------------------------------------------------------
 
     def sleep_until(self, when_ns: int, reason: str | None = None) -> None:
-        """Block until graph time ``when_ns``."""
+        """Block until graph time ``when_ns``; ``reason`` completes "... was waiting for"."""
         timeout = when_ns - self.now_ns()
         Waiter(self, reason or "time to pass").wait(max(timeout, 0))
 
@@ -204,7 +208,7 @@ class Scheduler(EventQueue):
                 raise LaneExit(f"lane {self._current.name} was asked to end")
 
     def in_thread(self, function: Callable[[], T]) -> T:
-        """Run a blocking call of the operating system in a helper thread while the caller is parked."""
+        """Return ``function()``, a blocking call of the operating system, run in a thread; the caller is parked."""
         return threads.in_thread(self, function) if self.is_scheduler_thread() else function()
 
     def acquire_scheduler(self, *, to_wait: bool = False) -> bool:
@@ -363,9 +367,10 @@ class Scheduler(EventQueue):
         return self._root_waiter is not None
 
     def run(self, until_ns: int | None = None, until: Callable[[], bool] | None = None) -> RunReport:
-        """Drive the queue until graph time ``until_ns``, until ``until()``, or (in simulated time) until it is empty.
+        """Drive the queue until graph time ``until_ns``, ``until()`` is true, or (in simulated time) no event is left.
 
-        Only from the main program, a notebook cell, or a thread while no other thread drives.
+        Call it only in the main program, a notebook cell, or a thread while no other thread drives: otherwise it raises
+        ``RosminiError``, or, beside another driving thread in wall-clock time, only waits.
         """
         is_free = self.is_scheduler_thread() or self.acquire_scheduler()
         if is_free and self.current() is self.root and until is not None and until():
@@ -387,7 +392,7 @@ class Scheduler(EventQueue):
         return self.report(waiter.value)
 
     def _run_beside(self, until_ns: int | None, until: Callable[[], bool] | None) -> RunReport:
-        """Run while another thread drives, which is allowed in wall time only."""
+        """Run while another thread drives, which is allowed in wall-clock time only."""
         if not self.simulated and self.current() is self.root:
             return threads.run_beside(self, until_ns, until)
         msg = (
@@ -402,7 +407,7 @@ class Scheduler(EventQueue):
             self._root_waiter.wake("stopped")
 
     def report(self, reason: str) -> RunReport:
-        """Return a report of the state at the end of a run."""
+        """Return a report on a run that has just ended for ``reason``."""
         return RunReport(reason, self.now_ns() / 1e9, self.waiting())
 
     def waiting(self) -> tuple[Waiting, ...]:
@@ -495,7 +500,7 @@ class Scheduler(EventQueue):
         self._empty_inbox()
 
     def _advance(self) -> None:
-        """Nothing is due: advance to the next event, wait for it, or end the run."""
+        """Advance to the next event, wait for it, or end the run, since no event is due now."""
         if self._last:
             self._take_last()
             return

@@ -43,7 +43,7 @@ class Services(dict[str, "ServiceServer"]):
     def offer(
         self, name: str, service_class: Any, handler: Callable[[Any], Any], *, numpy: bool = True
     ) -> ServiceServer:
-        """Offer a service: ``handler(request)`` returns the response.
+        """Offer a service, and return its server; ``handler(request)`` returns the response.
 
         Raises ``ROSException`` if this node offers it already.
         """
@@ -69,14 +69,14 @@ class Services(dict[str, "ServiceServer"]):
         return self._node.scheduler.run_in_scheduler(make)
 
     def drop(self, server: ServiceServer) -> None:
-        """Withdraw a service. For the server only."""
+        """Unregister a service. Called only by its server."""
         if self.get(server.name) is server:
             del self[server.name]
         uri = self._node.graph.transport.service_uri(self._node.uri)
         self._node.master.unregister("unregisterService", server.name, uri, warn=self._node.logwarn)
 
     def wait_for(self, name: str, timeout: float | None = None) -> None:
-        """Block until a node offers the service and answers; a killed node is still listed but does not answer.
+        """Block until a node that responds offers the service; a killed node is still listed but does not respond.
 
         Raises ``ROSException`` after ``timeout`` seconds.
         """
@@ -105,7 +105,10 @@ class Services(dict[str, "ServiceServer"]):
         return True
 
     def accept(self, header: Header) -> Session:
-        """Accept a service client's connection. Raises ``TransportInitError`` if the node lacks the service."""
+        """Accept a service client's connection; return its session.
+
+        Raises ``TransportInitError`` if the node does not offer the service, or the client's type does not match.
+        """
         server = None if self._node.is_shutdown() else self.get(header.get("service", ""))
         if server is None:
             raise TransportInitError(f"[{self._node.name}] is not a provider of [{header.get('service')}]")
@@ -113,9 +116,9 @@ class Services(dict[str, "ServiceServer"]):
 
 
 class ServiceServer:
-    """Answers calls of one service. Made by :meth:`Node.service <rosmini.core.graph.node.Node.service>`.
+    """Handles the calls of one service. Made by :meth:`Node.service <rosmini.core.graph.node.Node.service>`.
 
-    The handler gets the request and returns a response or its fields: a tuple or list of its fields in order, a
+    The handler receives the request and returns a response or its fields: a tuple or list of its fields in order, a
     dictionary of fields by name, or the value of its only field. None is refused, even for a response without fields,
     as in rospy. Each client connection has a separate lane, so a handler may block.
     """
@@ -137,7 +140,10 @@ class ServiceServer:
         return f"<ServiceServer {self.name} [{self.service_class._type}] of {self.node.name}>"
 
     def accept(self, header: Header) -> Session:
-        """Accept a client's connection. Raises ``TransportInitError`` if its md5 sum is not the type's or ``*``."""
+        """Accept a client's connection; return its session.
+
+        Raises ``TransportInitError`` if the client's md5 sum is neither that of the service's type nor ``*``.
+        """
         wanted, mine = header.get("md5sum"), self.service_class._md5sum
         if wanted not in ("*", mine):
             msg = f"request from [{header.get('callerid', 'unknown')}]: md5sums do not match: [{wanted}] vs. [{mine}]"
@@ -149,7 +155,8 @@ class ServiceServer:
     def respond(self, request: Any, header: Header) -> Any:
         """Return the frozen response to a frozen request; ``header`` is the client's connection header.
 
-        Raises ``ServiceException`` with the text that the client gets.
+        Raises ``ServiceException``, with the text for the client, if the handler fails or refuses the request, or if
+        the request or the response is invalid.
         """
         response_class = self.service_class._response_class
         try:
@@ -159,7 +166,7 @@ class ServiceServer:
             raise ServiceException(msg) from error
         try:
             answer = self.handler(received)
-        except ServiceException as error:  # the way in which a handler refuses a request
+        except ServiceException as error:  # a handler raises it to refuse a request
             silent = isinstance(error, ServiceRefused)
             msg = str(error) if silent else f"service cannot process request: {error}"
             raise ServiceException(msg) from error
@@ -183,20 +190,23 @@ class ServiceServer:
         return ". For a response without fields return [] or the response itself, as rospy wants it"
 
     def shutdown(self, reason: str = "") -> None:
-        """Stop answering; waiting callers get an error. Harmless when repeated."""
+        """Stop offering the service; waiting callers get an error. Safe to call again."""
         if self._open:
             self._open = False
             self.close_sessions(reason)
             self.node.services.drop(self)
 
     def close_sessions(self, reason: str) -> None:
-        """Refuse queued requests and fail those that are being answered."""
+        """Close all client connections; queued requests, and those being handled, get an error with ``reason``."""
         for session in list(self.sessions):
             session.abort(reason)
 
 
 def receiver(message_class: Any, *, numpy: bool) -> Callable[[Any, Header], Any]:
-    """Return a function that converts a frozen request or response to the receiver's object and sets its header."""
+    """Return a function that converts a frozen request or response to the receiver's object, and sets its header.
+
+    With ``numpy``, numeric arrays become numpy arrays, otherwise tuples.
+    """
     thaw = message_class._thawer(numpy=numpy)
 
     def receive(frozen: Any, header: Header) -> Any:
@@ -210,7 +220,7 @@ def receiver(message_class: Any, *, numpy: bool) -> Callable[[Any, Header], Any]
 
 
 def _response_from(answer: Any, response_class: Any) -> Any:
-    """Make a response from a handler's return value, by rospy's rules."""
+    """Return the response for a handler's return value, by rospy's rules. Raises ``ServiceException`` if invalid."""
     slots = response_class.__slots__
     if isinstance(answer, response_class):
         return answer
@@ -253,7 +263,10 @@ class Session:
         self._gone: str | None = None
 
     def handle(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
-        """Answer a request in the session's lane."""
+        """Handle a frozen request in the session's lane, then call ``reply(response, problem)``.
+
+        If the request succeeds, ``problem`` is None; otherwise it is an error text, and the response is None.
+        """
         if self._gone is not None:
             reply(None, self._gone)
             return
@@ -277,12 +290,12 @@ class Session:
             history.act_on(None)
 
     def close(self) -> None:
-        """Called when the client has closed the connection."""
+        """Remove the session after the client has closed the connection."""
         if self in self.server.sessions:
             self.server.sessions.remove(self)
 
     def abort(self, reason: str) -> None:
-        """Fail all requests that are not yet answered, because the server is closing."""
+        """Reply to all pending requests with an error, because the server is closing, and remove the session."""
         pending, self._pending = self._pending, []
         why = f" ({reason})" if reason else ""
         self._gone = f"transport error completing service call: the server was shut down{why}"
@@ -398,7 +411,7 @@ class ServiceClient:
     def _lookup(self) -> str:
         """Return the service's address.
 
-        Raises ``ServiceException`` if no node offers it, or if the Master does not answer.
+        Raises ``ServiceException`` if no node offers it, or if the Master does not respond.
         """
         master = self.node.master
         try:
@@ -427,7 +440,7 @@ class ServiceClient:
         self.node.services.wait_for(self.name, timeout)
 
     def close(self) -> None:
-        """Close a persistent connection permanently."""
+        """Close the connection of a persistent client, which then cannot be used any more."""
         link, self._link = self._link, None
         self._closed = self.persistent
         if link is not None:
@@ -435,5 +448,5 @@ class ServiceClient:
 
 
 def timed_out(seconds: float, what: str) -> ROSException:
-    """Return the error of a wait that took too long."""
+    """Return the exception for a wait for ``what`` that timed out after ``seconds``."""
     return ROSException(f"timeout exceeded after {seconds:g} s while waiting for {what}")

@@ -1,7 +1,8 @@
-"""Displays objects without a dependency on renderers: a renderer is found by name when it is needed.
+"""Display of objects without a dependency on renderers: a renderer is found by name when it is needed.
 
 Renderers are entry points of the group `rosmini.renderers` (`"computation_graph" = "rosmini.viz.rqt:rqt_graph"`), as
-executables are of `rosmini.nodes`. So no part below `rosmini.viz` imports it, and other packages can add renderers.
+nodes are of `rosmini.nodes`. The parts below `rosmini.viz` therefore need not import it, and other packages can add
+renderers.
 """
 
 from __future__ import annotations
@@ -45,5 +46,5 @@ def show(kind: str, thing: object, **options: Any) -> Any:
 
 
 def has_own_process(graph: Graph) -> bool:
-    """Return True if this process is one of several of a graph, in wall time, and not a notebook with a live graph."""
+    """Return True if this process is one of several of a graph in wall-clock time, and does not run the graph live."""
     return not (graph.simulated or graph.master.is_local or graph.is_live)

@@ -1,7 +1,7 @@
-"""The slave API: a node's answers to the Master, to other nodes and to tools (http://wiki.ros.org/ROS/Slave_API).
+"""The slave API, which the Master, other nodes and tools call (http://wiki.ros.org/ROS/Slave_API).
 
-Any thread may call it, such as one that reads a wire: it answers at once from a snapshot, which the scheduler's
-thread updates, and posts the effects. A callback that computes for long therefore delays no answer.
+Any thread may call it, such as one that reads a wire. It responds at once from a snapshot, which the scheduler's thread
+updates, and posts the effects, so a callback that computes for long does not delay the response.
 """
 
 # ruff: noqa: ARG002 - every call has a caller_id, whether it needs one or not
@@ -38,7 +38,7 @@ METHODS = frozenset(
 
 
 class _Connections(NamedTuple):
-    """The open connections of a node: (topic, number, sender) and (topic, connection)."""
+    """The connections of a node: (topic, number, sender) if it publishes, (topic, connection) if it subscribes."""
 
     out: tuple[tuple[str, int, Sender], ...] = ()
     into: tuple[tuple[str, Connection], ...] = ()
@@ -65,7 +65,7 @@ class SlaveApi:
         self.connections_changed()
 
     def end(self) -> None:
-        """Stop offering topics: a subscriber that is cut off asks again before the Master notifies it."""
+        """Stop offering topics: a subscriber that loses its connection may ask again before the Master notifies it."""
         self._published = {}
 
     def connections_changed(self) -> None:
@@ -99,7 +99,7 @@ class SlaveApi:
     # -- the calls -----------------------------------------------------------------------------------------------
 
     def call(self, method: str, *arguments: Any) -> Triple:
-        """Answer a call by method name; an unknown name or wrong arguments give code -1."""
+        """Return the response to a call by method name; an unknown name or wrong arguments give code -1."""
         if method not in METHODS:
             return [-1, f'method "{method}" is not supported', 0]
         if not arguments:
@@ -169,15 +169,15 @@ class SlaveApi:
         return [1, "", os.getpid()]
 
     def getSubscriptions(self, caller_id: str) -> Triple:
-        """Return [topic, type] pairs."""
+        """Return ``[topic, type]`` for each topic that the node subscribes to."""
         return [1, "subscriptions", [list(pair) for pair in self._subscribed.items()]]
 
     def getPublications(self, caller_id: str) -> Triple:
-        """Return [topic, type] pairs."""
+        """Return ``[topic, type]`` for each topic that the node publishes."""
         return [1, "publications", [list(pair) for pair in self._published.items()]]
 
     def paramUpdate(self, caller_id: str, parameter_key: str, parameter_value: Any) -> Triple:
-        """Called when a parameter to which the node subscribes has changed."""
+        """Handle a notice that a parameter has changed; the code is -1 if the node does not subscribe to it."""
         problem = _name_problem("parameter_key", parameter_key)
         if problem:
             return [-1, problem, 0]
@@ -187,7 +187,7 @@ class SlaveApi:
         return [1, "", 0]
 
     def publisherUpdate(self, caller_id: str, topic: str, publishers: list[str]) -> Triple:
-        """Called when the publishers of a topic have changed."""
+        """Handle a notice that the publishers of a topic have changed: ``publishers`` are their URIs now."""
         problem = _name_problem("topic", topic)
         if not problem and not (isinstance(publishers, list) and all(map(_is_uri, publishers))):
             problem = "ERROR: parameter [publishers] must be a list of URIs"

@@ -45,7 +45,7 @@ class Subscription:
         self.statistics: TopicStatistics | None = None
         """The statistics of the connections, if they are enabled."""
         self.updates = 0
-        """Number of updates of the topic's publishers from the Master."""
+        """Number of lists of the topic's publishers received from the Master."""
         self._first: Subscriber | None = None
         self._wanted: dict[str, None] = {}
         self._is_closed = False
@@ -58,10 +58,10 @@ class Subscription:
         return "*" not in sums and sums[0] != sums[1]
 
     def update_publishers(self, uris: Iterable[str]) -> None:
-        """Connect to new publishers after a ``publisherUpdate``.
+        """Connect to those of the publishers at ``uris``, the Master's latest list, that are not connected yet.
 
         As in rospy, a connection outlives its registration: the publisher closes it after its last message, which may
-        still be on its way, as may its answer to a node that has just connected.
+        still be on its way, as may its response to a node that has just connected.
         """
         if self._is_closed:
             return
@@ -100,13 +100,13 @@ class Subscription:
             self._connect(connection.uri)
 
     def closed(self, connection: Connection) -> None:
-        """Called when a publisher has closed a connection; reconnect if it is on the topic again."""
+        """Drop a connection that its publisher has closed; reconnect if the Master still lists the publisher."""
         self.forget(connection)
         if not self._try_again(connection):
             self._connect(connection.uri)
 
     def lost(self, connection: Connection, error: Exception | None) -> None:
-        """Called when a connection has failed or could not be made; warn once, and retry if the transport allows it."""
+        """Drop a connection that has failed or could not be made; warn once, and retry if the transport allows it."""
         self.abandon(connection)
         if connection.publisher_left:
             return
@@ -126,9 +126,10 @@ class Subscription:
         return connection.had_success or connection.uri not in self._attempts
 
     def _try_again(self, connection: Connection) -> bool:
-        """Connect again later; the delay grows with each attempt that brings no message, as in rospy.
+        """Connect again later, after a delay that grows with each attempt that brings no message, as in rospy.
 
-        Only the first attempt is immediate, so a publisher that closes after each message is not asked all the time.
+        Return False if there will be no attempt. Only the first attempt is immediate, so that a publisher which closes
+        after each message is not called all the time.
         """
         uri = connection.uri
         if self._is_closed or not self.handles or uri not in self._wanted:
@@ -187,7 +188,7 @@ class Subscription:
         return found if self.statistics is None else [*found, self.statistics.observer(connection)]
 
     def route(self, message_class: Any) -> Route:
-        """Return the route of messages of a class to the callbacks."""
+        """Return the steps that pass frozen messages of a class to the callbacks."""
         first = self._first
         callbacks = [handle.callback for handle in self.handles if handle.callback is not None]
         return Route(
@@ -278,5 +279,5 @@ class Subscriber(TopicHandle):
             subscription.remove(self)
 
     def detach(self) -> None:
-        """Called when the node has shut down."""
+        """Stop receiving messages after the node has shut down."""
         self._subscription = None

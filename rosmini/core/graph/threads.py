@@ -72,7 +72,7 @@ def work(creator: greenlet) -> None:
 
 
 PATIENCE_S = 1.0
-"""Time after which a Ctrl-C that has not ended anything reports the code for which it waits [s]."""
+"""Time after which a Ctrl-C without effect reports the code that is still running [s]."""
 
 MAIN_THREAD = threading.main_thread().ident
 
@@ -163,7 +163,7 @@ def users_place(frame: FrameType | None) -> str:
 T = TypeVar("T")
 
 POLL_PERIOD_S = 0.005
-"""Interval at which a run beside another thread's checks whether it is over [s]."""
+"""Interval at which :func:`run_beside` checks whether the run is over [s]."""
 
 
 def call_from_thread(scheduler: Scheduler, function: Callable[[], T]) -> T:
@@ -201,7 +201,7 @@ def complaint(scheduler: Scheduler, waiter: Waiter) -> Callable[[], None]:
 
 
 def run_beside(scheduler: Scheduler, until_ns: int | None, until: Callable[[], bool] | None) -> RunReport:
-    """Wait for the time or the condition while another thread drives, like ``run`` in wall time."""
+    """Wait for the time or the condition while another thread drives in wall-clock time; return a report as ``run``."""
     waiter = Waiter(scheduler, "the end of the run")
 
     def poll() -> None:

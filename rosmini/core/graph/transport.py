@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 Triple = list[Any]
-"""The answer to each call of the Master and slave APIs: [code, status message, value]."""
+"""The response to each call of the Master and slave APIs: [code, status message, value]."""
 
 Header = dict[str, str]
 """A connection header: the fields that the two ends exchange before the first message."""
@@ -70,7 +70,7 @@ class Sender(Protocol):
 
     @property
     def sent(self) -> int:
-        """Number of messages sent."""
+        """Number of messages sent, including dropped ones."""
 
     def send(self, message: Any, size: int | None) -> None:
         """Send a message; ``size`` is the maximum length of the queue (None: no limit).
@@ -124,16 +124,16 @@ class Transport(Protocol):
         """
 
     def topic_parameters(self, uri: str, offer: list[Any]) -> list[Any] | None:
-        """Return the parameters, [name, ...], with which the node at ``uri`` answers an offer in ``requestTopic``.
+        """Return the parameters, [name, ...], with which the node at ``uri`` responds to an offer in ``requestTopic``.
 
         None if the offer is for another transport.
         """
 
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:
-        """Call a method of a node's slave API; may block. Raises ``TransportException`` if there is no answer."""
+        """Return the response of a node's slave API; may block. Raises ``TransportException`` if there is none."""
 
     def retry(self, seconds: float, function: Callable[[], object]) -> bool:
-        """Call a function in the scheduler's thread after some seconds of wall time, to try a connection again.
+        """Call a function in the scheduler's thread after some seconds of wall-clock time, to try a connection again.
 
         Return False, and do nothing, if a node that has gone never comes back to its address.
         """
@@ -151,9 +151,9 @@ class Transport(Protocol):
         """
 
     def connect_service(self, caller: str, service_uri: str, header: Header, service_class: Any) -> ServiceLink:
-        """Open a service connection of the node at ``caller``; may block.
+        """Open a service connection of the node at ``caller``, and return it; may block.
 
-        Raises ``TransportInitError`` if it is refused.
+        Raises ``TransportInitError`` if it is refused, and ``TransportException`` if the server does not respond.
         """
 
 
@@ -226,15 +226,15 @@ class Transports:
         return [offer for transport in self.transports if (offer := transport.offer(caller)) is not None]
 
     def topic_parameters(self, uri: str, offers: list[list[Any]]) -> list[Any] | None:
-        """Return the parameters, [name, ...], with which the node at ``uri`` answers ``requestTopic``.
+        """Return the parameters, [name, ...], with which the node at ``uri`` responds to ``requestTopic``.
 
-        The first transport that accepts one of the offers answers; None if none does.
+        They are those of the first transport that accepts one of the offers, or None if none does.
         """
         answers = (transport.topic_parameters(uri, offer) for transport in self.transports for offer in offers)
         return next((answer for answer in answers if answer is not None), None)
 
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:
-        """Call a method of a node's slave API; may block. Raises ``TransportException`` if there is no answer."""
+        """Return the response of a node's slave API; may block. Raises ``TransportException`` if there is none."""
         answer = self._transport_for(uri).call(uri, method, *arguments)
         history = self._scheduler.history
         if history is not None:
@@ -245,7 +245,7 @@ class Transports:
     def connect_topic(
         self, caller: str, parameters: list[Any], header: Header, receiver: Connection
     ) -> tuple[Header, Callable[[], None]]:
-        """Open a topic connection by the transport that was agreed on; see ``Transport``."""
+        """Open a topic connection by the transport that ``parameters`` name; see ``Transport.connect_topic``."""
         for transport in self.transports:
             if isinstance(parameters, list) and parameters and parameters[0] == transport.protocol:
                 answer, close = transport.connect_topic(caller, parameters, header, receiver)
@@ -257,7 +257,7 @@ class Transports:
         raise TransportInitError(f"the publisher answered with {shown(parameters)}, which was not offered")
 
     def connect_service(self, caller: str, service_uri: str, header: Header, service_class: Any) -> ServiceLink:
-        """Open a service connection; see :class:`~rosmini.core.graph.transport.Transport`."""
+        """Open a service connection; see ``Transport.connect_service``. Fails for a service in :attr:`cut`."""
         if header.get("service") in self.cut:
             raise TransportException("the connection was cut off on purpose; `%fault clear` ends the fault")
         here = self._here.get(service_uri)
@@ -267,7 +267,7 @@ class Transports:
         return self._transport_for(service_uri).connect_service(caller, service_uri, header, service_class)
 
     def probe_service(self, uri: str, header: Header, caller: str = "") -> Header:
-        """Return the header with which a service's server answers. Raises like :meth:`connect_service`."""
+        """Return the connection header of a service's server. Raises as :meth:`connect_service`."""
         link = self.connect_service(caller, uri, header, None)
         link.close()
         return link.header
@@ -282,5 +282,5 @@ class Transports:
             transport.close()
 
     def _transport_for(self, uri: str) -> Transport:
-        """Return the first transport that reaches a node, or the last one, whose error explains best why none does."""
+        """Return the first transport that reaches a node, or the last one, whose error best explains why none does."""
         return next((transport for transport in self.transports if transport.reaches(uri)), self.transports[-1])

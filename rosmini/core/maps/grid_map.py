@@ -108,9 +108,9 @@ class GridMap:
 
     @classmethod
     def from_message(cls, message: Any) -> GridMap:
-        """Return the map in a `nav_msgs/OccupancyGrid`. Raises `MapError` if the number of cells does not fit its size.
+        """Return the map in a `nav_msgs/OccupancyGrid`. An all-zero orientation, as in a new message, means yaw 0.
 
-        An all-zero orientation, as in a new message, counts as yaw 0.
+        Raises `MapError` if the number of cells does not match the size, or the resolution or origin is invalid.
         """
         info = message.info
         cells = np.array(message.data, dtype=np.int8)

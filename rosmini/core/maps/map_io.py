@@ -2,8 +2,8 @@
 
 The fields and colours are described on http://wiki.ros.org/map_server, sections 1.1 to 1.3. Where that page is silent,
 this follows map_server's image loader: alpha is averaged with the colours in the mode `trinary`, and means "unknown" if
-it is 0 in the mode `scale`; values are truncated, not rounded. Unlike there, a resolution of 0 and numbers that are not
-finite are errors here, and a useless map, such as one that is unknown everywhere, causes a warning.
+it is 0 in the mode `scale`; values are truncated, not rounded. Unlike in map_server, a resolution of 0 and numbers that
+are not finite are errors, and a useless map, such as one that is unknown everywhere, causes a warning.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ MIN_CELL_M, MAX_MAP_M = 1e-6, 1e9
 
 @dataclass(frozen=True)
 class Fields:
-    """The fields of a YAML file."""
+    """The fields of a map's YAML file: resolution [m], origin [m, m, rad], thresholds from 0 to 1."""
 
     image: str
     resolution: float
@@ -65,13 +65,13 @@ class _Document:
     """The line of each field."""
 
     def place(self, name: str) -> str:
-        """Return the file and the line of a field."""
+        """Return the file and the line of a field, for an error message."""
         return f"{self.path}:{self.lines[name]}" if name in self.lines else str(self.path)
 
 
 @dataclass(frozen=True)
 class MapFile:
-    """The checked description of a map, whose image is not read yet."""
+    """The checked YAML file of a map. `load` reads its image."""
 
     document: _Document
     fields: Fields
@@ -86,7 +86,7 @@ class MapFile:
         return self._rows(lambda pixels: pixels)
 
     def _rows(self, convert: Callable[[NDArray[np.uint8]], NDArray[_Cell]]) -> NDArray[_Cell]:
-        """Return the image's pixels as converted by a function of pixels (h, w, channels), row 0 at the bottom."""
+        """Return the image with its pixels (h, w, channels) converted by `convert`, row 0 at the bottom."""
         place, image = self.document.place("image"), self.image
         found: NDArray[_Cell] | None = None
         try:
@@ -131,7 +131,7 @@ class MapFile:
 
 
 def map_file(yaml_path: str | os.PathLike[str]) -> MapFile:
-    """Return the description of a map in a YAML file. Raises `MapError` as `load_map` does."""
+    """Return the description of a map in a YAML file, without reading the image. Raises `MapError` as `load_map`."""
     document = _document(Path(yaml_path))
     return MapFile(document, _fields(document))
 
@@ -144,9 +144,10 @@ def image_file(
     occupied_thresh: float = 0.65,
     free_thresh: float = 0.196,
 ) -> MapFile:
-    """Return a map for an image without YAML file, in the mode trinary, with origin (0, 0), as in old map_servers.
+    """Return the description of a map for an image without a YAML file, as old versions of map_server accept it.
 
-    Raises `MapMetadataError` for invalid numbers.
+    The mode is trinary, the origin (0, 0, 0), and a cell `resolution` metres wide. Raises `MapMetadataError` for
+    invalid numbers.
     """
     image = Path(path)
     given = {
@@ -164,9 +165,9 @@ def image_file(
 def load_map(yaml_path: str | os.PathLike[str]) -> GridMap:
     """Load the map that a YAML file describes. The image's path is relative to its folder, unless absolute.
 
-    Raises `MapError`: `MapMissing` if the file does not exist; `MapMetadataError` if it is not YAML, a field is
-    missing or of another type, the resolution is not positive or a number not finite; `MapDataError`
-    if the image is missing, unreadable or empty. Warns of a map that is probably a mistake.
+    Raises `MapError`: `MapMissing` if the YAML file cannot be read; `MapMetadataError` if it is not YAML, a field is
+    missing or of another type, the resolution is not positive or a number not finite; `MapDataError` if the image is
+    missing, unreadable or empty. Warns of a map that is probably a mistake.
     """
     return map_file(yaml_path).load()
 
@@ -190,7 +191,7 @@ def _fields(document: _Document) -> Fields:
     occupied, free = (_number(document, name, found[name]) for name in ("occupied_thresh", "free_thresh"))
     negate = _whole(document, "negate", found["negate"], "0 or 1 (map_server does not read true and false)")
     mode = found.get("mode")
-    if mode is None or isinstance(mode, list | dict | set):  # map_server overlooks what is not one word
+    if mode is None or isinstance(mode, list | dict | set):  # map_server ignores a value that is not a scalar
         mode = "trinary"
     if mode not in MODES:
         hint = nearest(str(mode), MODES)
@@ -200,7 +201,7 @@ def _fields(document: _Document) -> Fields:
 
 
 def _odd_thresholds(fields: Fields) -> str:
-    """Return the error in the thresholds, which map_server does not check, or an empty text."""
+    """Return a description of an error in the thresholds, which map_server does not check; empty if there is none."""
     occupied, free = fields.occupied_thresh, fields.free_thresh
     if occupied < free:
         return f"occupied_thresh ({occupied:g}) is below free_thresh ({free:g}), so the greys between are occupied"
@@ -242,7 +243,7 @@ def _origin(document: _Document, value: object) -> tuple[float, float, float]:
 
 
 def _whole(document: _Document, name: str, value: object, wanted: str) -> int:
-    """Return an integer, which may be in quotation marks."""
+    """Return the integer `value`, which may be in quotation marks. Raises `MapMetadataError` for anything else."""
     try:
         if isinstance(value, str) or type(value) is int:
             return int(value)

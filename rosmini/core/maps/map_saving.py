@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 from .grid_map import GridMap, MapError
 
 BLACK, GREY, WHITE = 0, 205, 254
-"""Pixels for occupied, unknown and free. With the thresholds below, 205 is barely unknown: p is 0.196078."""
+"""Pixels for occupied, unknown and free. 205 is barely unknown: its p is 0.196078, and free_thresh is 0.196."""
 
 OCCUPIED_FROM, FREE_TO = 65, 25
-"""Cells are written as occupied from the first value on, as free up to the second [%], and else as unknown."""
+"""Thresholds [%]: cells are occupied from the first value up, free from 0 to the second, and otherwise unknown."""
 
 
 def pixels_of(occupancy: NDArray[np.int8], occupied: int = OCCUPIED_FROM, free: int = FREE_TO) -> NDArray[np.uint8]:
-    """Return the pixels (h, w) for cells (h, w); row 0 of the cells is at the bottom, of the pixels at the top."""
+    """Return the pixels (h, w), row 0 at the top, for cells (h, w), row 0 at the bottom; thresholds in per cent."""
     values = np.arange(-128, 128)
     table = np.select([(values >= 0) & (values <= free), values >= occupied], [WHITE, BLACK], GREY).astype(np.uint8)
     pixels: NDArray[np.uint8] = np.roll(table, 128)[occupancy[::-1].view(np.uint8)]
@@ -28,11 +28,11 @@ def pixels_of(occupancy: NDArray[np.int8], occupied: int = OCCUPIED_FROM, free: 
 def save_map(
     grid: GridMap, name: str | os.PathLike[str], *, occupied: int = OCCUPIED_FROM, free: int = FREE_TO
 ) -> tuple[Path, Path]:
-    """Write a map to NAME.pgm and NAME.yaml; returns their paths, the YAML file's first.
+    """Write a map to NAME.pgm and NAME.yaml; return their paths, the YAML file's first.
 
-    The files are the same as map_saver's, byte for byte, with one exception: in `maps/house.yaml` it calls the image
-    `maps/house.pgm`, which map_server then looks for in `maps/maps`; here it is `house.pgm`. An absolute path is
-    kept.
+    The files are the same as map_saver's, byte for byte, with one exception. In `maps/house.yaml`, map_saver calls the
+    image `maps/house.pgm`, which map_server then looks for in `maps/maps`; this function calls it `house.pgm`. An
+    absolute path stays absolute.
 
     Numbers have six decimals, as in map_saver. Raises `MapError` if a file cannot be written.
     """

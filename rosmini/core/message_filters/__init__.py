@@ -1,8 +1,8 @@
 """Message filters: combine messages of several topics by their time (http://wiki.ros.org/message_filters).
 
-This is the object API, on a :class:`rosmini.core.graph.Node`. Scripts import the same in rospy's style as
-``message_filters``: :mod:`rosmini.ros.rospy.aliases.message_filters`. ``policies`` decides, without
-nodes, which messages belong together.
+Filters take a :class:`rosmini.core.graph.Node`. Scripts import the same classes in rospy's style as
+``message_filters``: :mod:`rosmini.ros.rospy.aliases.message_filters`. The module ``policies``, which decides which
+messages belong together, does not depend on nodes.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The base classes of all filters, the filter at the start of each chain, a subscriber, and a cache."""
+"""The base classes of all filters, and two filters: `Subscriber`, which starts a chain of filters, and `Cache`."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ def check_size(name: str, size: Any) -> int:
 
 
 class SimpleFilter:
-    """A source of messages, for which callbacks are registered. Subclasses call ``signalMessage``."""
+    """Base class of filters: passes messages to registered callbacks. Subclasses call ``signalMessage``."""
 
     node: Node | None = None
-    """Node whose clock and log are used by the filters that follow, unless they are given one."""
+    """The node whose clock and log the next filters in the chain use, unless they are given another."""
 
     def __init__(self) -> None:
         self.callbacks: dict[int, tuple[Callable[..., object], tuple[Any, ...]]] = {}
@@ -49,7 +49,7 @@ class SimpleFilter:
 
 
 class Subscriber(SimpleFilter):
-    """The messages of a topic; ``options`` are those of ``Node.subscriber``."""
+    """A filter that outputs the messages of a topic; ``options`` are those of ``Node.subscriber``."""
 
     def __init__(self, node: Node, topic: str, message_class: Any, **options: Any) -> None:
         super().__init__()
@@ -67,7 +67,10 @@ class Subscriber(SimpleFilter):
 
 
 class StampingFilter(SimpleFilter):
-    """A filter that uses the time of its messages."""
+    """Base class of filters that use the stamps of messages, and the clock and log of ``node``.
+
+    By default, this is the node of the first input that has one.
+    """
 
     def __init__(self, inputs: Iterable[SimpleFilter], *, allow_headerless: bool, node: Node | None) -> None:
         super().__init__()
@@ -132,7 +135,7 @@ class Cache(StampingFilter):
         self.incoming_connection = f.registerCallback(self.add)
 
     def add(self, msg: Any) -> None:
-        """Store a message and pass it on."""
+        """Store a message, drop the oldest one if the cache is full, and pass the message on."""
         stamp = self._stamp(msg)
         if stamp is not None:
             self.cache_times.append(type(stamp)(stamp.secs, stamp.nsecs))

@@ -116,7 +116,7 @@ class ApproximateTime(Policy):
     def _first_close_set(
         self, choices: list[list[int]], chosen: tuple[int, ...], low: int, high: int
     ) -> tuple[int, ...] | None:
-        """Return the first combination, in the order of `itertools.product`, within the slop; prune the search."""
+        """Return the first combination of stamps within the slop, in the order of `itertools.product`, or None."""
         if high - low >= self.slop:
             return None
         if len(chosen) == len(choices):

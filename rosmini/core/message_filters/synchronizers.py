@@ -18,11 +18,11 @@ if TYPE_CHECKING:
 
 
 MAX_UNSTAMPED = 10
-"""Number of messages of an input with the stamp 0, without any other, after which a warning is logged."""
+"""Number of messages of one input, all with the stamp 0, after which a warning is logged."""
 
 
 class StampedQueue(MutableMapping[Time, Any]):
-    """A view of the unmatched messages of one input, by stamp, with rospy ``Time`` keys; the policy's queue has ns."""
+    """A view of the waiting messages of one input, with ``Time`` keys; the keys of the policy's queue are in ns."""
 
     def __init__(self, kept: Queue) -> None:
         self.kept = kept
@@ -111,7 +111,7 @@ class TimeSynchronizer(StampingFilter):
             )
 
     def _output_ready(self) -> None:
-        """Call the callbacks for all complete sets; does nothing if called again while a callback blocks."""
+        """Call the callbacks for all complete sets; do nothing if called again while a callback blocks."""
         if self._is_outputting:
             return
         self._is_outputting = True

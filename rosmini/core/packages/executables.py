@@ -31,7 +31,7 @@ class Executable:
     """False for a Python script that needs a ``chmod +x`` before real ROS starts it."""
 
     def load(self) -> Any:
-        """Return the object of the entry point. Raises `ScriptError` for a file, and if the import fails."""
+        """Import and return the object of the entry point. Raises `ScriptError` for a file or a failed import."""
         if self.entry_point is None:
             raise ScriptError(f"{self.package}/{self.name} is a file ({self.path}), not a built-in node; run it")
         try:
@@ -67,7 +67,10 @@ def files_of(folder: Path) -> list[Path]:
 
 
 def scripts(folder: Path) -> list[Path]:
-    """Return the files of a package that can be run, in order of preference."""
+    """Return the files of a package that ``rosrun`` can start, in order of preference.
+
+    These are Python scripts in `SCRIPT_FOLDERS`, and files with the run bit in any folder.
+    """
     return [path for path in files_of(folder) if _can_run(path, folder)]
 
 
@@ -79,7 +82,7 @@ def devel_spaces(folder: Path) -> list[Path]:
 
 
 def built(package: str, folder: Path) -> list[Path]:
-    """Return the executables of a package in ``devel/lib/PACKAGE`` of a built catkin workspace."""
+    """Return the executables in ``lib/PACKAGE`` of the `devel_spaces`; of several with one name, only the first."""
     found: dict[str, Path] = {}
     for space in devel_spaces(folder):
         for path in sorted((space / "lib" / package).glob("*")):
@@ -89,7 +92,7 @@ def built(package: str, folder: Path) -> list[Path]:
 
 
 def reconfigure_modules(package: str, folder: Path) -> Path | None:
-    """Return the folder of the module ``PACKAGE.cfg`` built from a package's ``.cfg`` files, if any."""
+    """Return the folder of the module ``PACKAGE.cfg`` built from a package's ``.cfg`` files, or None."""
     for space in devel_spaces(folder):
         found = space / "lib/python3/dist-packages" / package / "cfg"
         if (found / "__init__.py").is_file():

@@ -37,22 +37,26 @@ def search_paths(environ: Mapping[str, str] | None = None) -> tuple[Path, ...]:
 
 
 def own_dirs() -> tuple[Path, Path]:
-    """Return the folders of rosmini's packages.
+    """Return the two folders of rosmini's packages, ``ros`` and ``core``.
 
-    ``ros`` contains what a real ROS can use too; ``core`` contains manifests for rosmini's Python modules and
-    commands, so that packages which depend on rospy find it.
+    ``ros`` contains packages that real ROS can use too. ``core`` contains manifests for rosmini's Python modules
+    and commands, so that packages which depend on rospy find it.
     """
     own = assets_dir()
     return own / "ros", own / "core"
 
 
 def package_around(path: str | os.PathLike[str]) -> Path | None:
-    """Return the folder of the package that contains a file: the nearest one above it with a ``package.xml``."""
+    """Return the folder of the package that contains a file (the nearest with a ``package.xml``), or None."""
     return next((folder for folder in Path(path).absolute().parents if (folder / MANIFEST).is_file()), None)
 
 
 def crawl(root: Path) -> Iterator[Path]:
-    """Yield the folders of all packages at or below ``root``, breadth first, then by name."""
+    """Yield the folders of all packages at or below ``root``, breadth first, then by name.
+
+    Like rospack, skip hidden folders, the inside of packages, folders with ``CATKIN_IGNORE``, and subfolders of
+    folders with ``rospack_nosubdirs``.
+    """
     seen: set[str] = set()  # real paths, to stop at cyclic links
     waiting = deque([root])
     while waiting:

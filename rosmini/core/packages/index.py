@@ -41,14 +41,14 @@ BUILT_IN = {
     "rosclean": "that removes old log files; rosmini keeps none unless ROS_LOG_DIR says where",
     "rospack": "that is the tool: `rosmini rospack`",
 }
-"""Packages without a folder here, and their replacements."""
+"""Explanations for ROS packages that rosmini does not contain, by name of package."""
 
 
 class PackageIndex:
-    """The packages below some folders (`search_paths` by default), searched on first use.
+    """An index of the packages below some folders (`search_paths` by default), which it searches on first use.
 
-    An unknown name makes the index search again, so a package that was just created is found; `refresh`
-    discards the results.
+    An unknown name makes the index search again, so it finds a package that was just created. `refresh`
+    discards the results, for example after a manifest was edited.
     """
 
     def __init__(self, paths: Iterable[str | os.PathLike[str]] | None = None) -> None:
@@ -69,7 +69,7 @@ class PackageIndex:
         self._packages = {}
 
     def names(self) -> list[str]:
-        """Return the names of all packages, sorted, without broken manifests; see `problems`."""
+        """Return the names of all packages, sorted, except those whose manifest is broken (see `problems`)."""
         return sorted(self._folders())
 
     def metapackages(self) -> list[str]:
@@ -83,7 +83,10 @@ class PackageIndex:
         return list(self._broken)
 
     def path(self, name: str) -> Path:
-        """Return the folder of a package, of whose manifest only the name is read. Raises the same errors as `find`."""
+        """Return the folder of a package. Only the name in its manifest is checked.
+
+        Raises `UnknownPackage`, or `DefinitionError` if a folder of that name has a broken manifest.
+        """
         found = self._folders().get(name)
         if found is None:
             self.refresh()
@@ -163,7 +166,7 @@ class PackageIndex:
             return Executable(package, name, entry_point=built_in[name])
         raise ScriptError(self._no_executable(package, name, folder))
 
-    # ---- inside ----
+    # ---- internals ----
 
     def _folders(self) -> dict[str, list[Path]]:
         """Return the folders of each package, by name; the first one is used."""

@@ -26,7 +26,7 @@ class Export:
     attributes: tuple[tuple[str, str], ...] = ()
 
     def get(self, name: str) -> str | None:
-        """Return an attribute, or None."""
+        """Return the value of an attribute, or None if it is missing."""
         return dict(self.attributes).get(name)
 
 
@@ -66,7 +66,10 @@ class Heading(NamedTuple):
 
 
 def read_heading(manifest: Path) -> Heading:
-    """Return the heading of a ``package.xml``. Raises `DefinitionError` if it is not XML or has no name."""
+    """Return the name in a ``package.xml``, and whether it describes a metapackage.
+
+    Raises `DefinitionError` if the file cannot be read, is not XML, defines entities, or contains no name.
+    """
     from xml.etree.ElementTree import ParseError
 
     from defusedxml.common import DefusedXmlException
@@ -93,7 +96,7 @@ def read_heading(manifest: Path) -> Heading:
 
 
 def read_package(folder: Path) -> Package:
-    """Return the package in ``folder``, from its ``package.xml``. Raises `DefinitionError`."""
+    """Return the package in ``folder``, from its ``package.xml``. Raises `DefinitionError` if that is invalid."""
     from catkin_pkg.package import InvalidPackage, parse_package_string
 
     manifest = folder / MANIFEST

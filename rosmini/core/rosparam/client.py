@@ -33,7 +33,7 @@ class ParamClient:
         self._master = graph.ask_as(self._caller)
 
     def get(self, name: str) -> Any:
-        """Return a parameter's value, or a namespace as a dictionary. Raises ``ParameterNotSet``."""
+        """Return a parameter's value, or a namespace as a dictionary. Raises ``ParameterNotSet`` if it is not set."""
         resolved = self._resolve(name)
         code, status, value = self._master.call("getParam", resolved)
         if code != 1:
@@ -43,20 +43,24 @@ class ParamClient:
     def set(self, name: str, text: str) -> None:
         """Set a parameter to the value of a YAML text: ``"0.5"``, ``"[1, 2]"``, ``"{p: 1.0}"``.
 
-        An empty text is the empty string. Raises ``RosParamException``.
+        An empty text is the empty string. Raises ``RosParamException`` if the text is not YAML, or for a value that the
+        Parameter Server does not support.
         """
         from .documents import parse
 
         self.upload(name, parse(text) if text else "")
 
     def upload(self, name: str, value: Any) -> None:
-        """Set a parameter to a value; a dictionary is merged. Raises ``RosParamException``."""
+        """Set a parameter to a value; a dictionary is merged into the existing namespace.
+
+        Raises ``RosParamException`` for a value that the Parameter Server does not support.
+        """
         from .documents import assignments
 
         self._send(list(assignments(self._resolve(name), value)))
 
     def delete(self, name: str) -> None:
-        """Delete a parameter or a namespace; for ``/``, all parameters. Raises ``ParameterNotSet``."""
+        """Delete a parameter or a namespace; ``/`` deletes all parameters. Raises ``ParameterNotSet`` if not set."""
         resolved = self._resolve(name)
         if resolved == "/":
             self._master.ask("setParam", "/", {})
@@ -80,19 +84,22 @@ class ParamClient:
         return self._load(load_file(path, self._resolve(namespace)))
 
     def loads(self, text: str, namespace: str = "", *, source: str = "") -> list[str]:
-        """Set the parameters of a YAML text, as :meth:`load` does; ``source`` is its name in errors."""
+        """Set the parameters of a YAML text as :meth:`load` does; return their names. Errors call it ``source``."""
         from .documents import load_str
 
         return self._load(load_str(text, source, self._resolve(namespace)))
 
     def dumps(self, namespace: str = "/") -> str:
-        """Return a parameter or a namespace as YAML. Raises ``ParameterNotSet``."""
+        """Return a parameter or a namespace as YAML. Raises ``ParameterNotSet`` if it is not set."""
         from .documents import dumps
 
         return dumps(self.get(namespace))
 
     def dump(self, path: str | Path, namespace: str = "/") -> Path:
-        """Write a namespace to a YAML file; return its path. Raises ``ParameterNotSet`` and ``RosParamException``."""
+        """Write a parameter or a namespace to a YAML file; return its path.
+
+        Raises ``ParameterNotSet`` if it is not set, and ``RosParamException`` if the file cannot be written.
+        """
         path, text = Path(path), self.dumps(namespace)
         try:
             path.write_text(text, encoding="utf-8")

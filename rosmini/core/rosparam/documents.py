@@ -43,10 +43,10 @@ def degrees(text: str) -> float:
 
 
 def radians(text: str, budget: Budget | None = None) -> float:
-    """Return ``rad(<expression>)``, or the expression alone, in radians.
+    """Return the value of ``rad(<expression>)``, or of the expression alone, which is an angle in radians.
 
     Expressions may contain numbers, ``pi``, ``+ - * / // % **``, brackets, and functions of ``math``, such as
-    ``math.sqrt(2)``. The evaluation is charged to ``budget``. Raises ``RosParamException``.
+    ``math.sqrt(2)``. The evaluation is charged to ``budget``. Raises ``RosParamException`` for any other text.
     """
     inner = text.strip()
     if inner.startswith("rad(") and inner.endswith(")"):
@@ -81,7 +81,10 @@ class Document:
     """True if the document names its namespace itself."""
 
     def assignments(self) -> list[tuple[str, Any]]:
-        """Return the parameters to set, all checked. Raises ``RosParamException`` with file and line."""
+        """Return name and value of each parameter to set.
+
+        Raises ``RosParamException``, with file and line, if one of them is invalid.
+        """
         try:
             return list(assignments(self.namespace, self.values))
         except _Refused as error:
@@ -156,7 +159,7 @@ def _checked(name: str, value: Any, place: str) -> Any:
 
 
 class _Loader(Loader):
-    """YAML with angles; a separate class, so that other YAML is read without them."""
+    """A loader that reads ``deg(...)`` and ``rad(...)`` as angles, as in parameter files; other YAML has no angles."""
 
     def __init__(self, text: str) -> None:
         super().__init__(text)
@@ -172,7 +175,7 @@ class _Loader(Loader):
 
 
 class _Dumper(yaml.SafeDumper):
-    """Quotes texts that look like an angle."""
+    """A dumper that quotes strings which look like an angle."""
 
 
 for _tag, _word, _read in (("!degrees", "deg", lambda text, _: degrees(text)), ("!radians", "rad", radians)):
@@ -182,7 +185,10 @@ for _tag, _word, _read in (("!degrees", "deg", lambda text, _: degrees(text)), (
 
 
 def load_file(path: str | Path, namespace: str = "/") -> list[Document]:
-    """Read a parameter file, for a namespace. Raises ``RosParamException``, with file and line."""
+    """Return the documents of a parameter file, for parameters in ``namespace``.
+
+    Raises ``RosParamException``, with file and line, if the file cannot be read or is not valid.
+    """
     path = Path(path)
     try:
         text = read(path, MAX_BYTES).decode("utf-8")
@@ -196,7 +202,10 @@ def load_file(path: str | Path, namespace: str = "/") -> list[Document]:
 
 
 def load_str(text: str, source: str = "", namespace: str = "/") -> list[Document]:
-    """Read the documents of a YAML text, called ``source`` in errors. Raises ``RosParamException``."""
+    """Return the documents of a YAML text, for parameters in ``namespace``; errors call it ``source``.
+
+    Raises ``RosParamException`` if the text is not valid YAML, or contains an empty document.
+    """
     found: list[Document] = []
     for values, node in documents(text, source, RosParamException, _Loader):
         if values is None:
@@ -210,7 +219,10 @@ def load_str(text: str, source: str = "", namespace: str = "/") -> list[Document
 
 
 def parse(text: str) -> Any:
-    """Return the value of a YAML text, as in ``rosparam set /gains '[1, 2.5]'``. Raises ``RosParamException``."""
+    """Return the value of a YAML text, as in ``rosparam set /gains '[1, 2.5]'``; None for an empty text.
+
+    Raises ``RosParamException`` if the text is not valid YAML, or has several documents.
+    """
     documents = load_str(text)
     if len(documents) > 1:
         raise RosParamException(f"{text!r} is {len(documents)} YAML documents, but a single value is needed")
@@ -234,7 +246,7 @@ def dumps(value: Any) -> str:
 
 
 def printed(value: Any) -> str:
-    """Return the output of ``rosparam get``: YAML, followed by an empty line unless the value is plain."""
+    """Return the output of ``rosparam get``: YAML, followed by an empty line unless it is a scalar without quotes."""
     text = dumps(value)
     is_plain = not isinstance(value, (dict, list)) and text[0] not in "'\"|"
     return text if is_plain else f"{text}\n"

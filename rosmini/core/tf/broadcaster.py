@@ -30,7 +30,7 @@ def resolve(prefix: str, frame: str) -> str:
 
 
 def tf_prefix(node: Node) -> str:
-    """Return the value of `tf_prefix` found by searching upwards from a node; empty if not set."""
+    """Return the value of the parameter `tf_prefix`, searched upwards from a node; empty if it is not set."""
     name = node.search_param("tf_prefix")
     return "" if name is None else str(node.get_param(name)).strip("/")
 
@@ -60,17 +60,20 @@ class TransformBroadcaster:
     ) -> None:
         """Send the pose of `child` in `parent`: translation [m], quaternion (x, y, z, w), and time (now by default).
 
-        Raises `InvalidArgumentException`.
+        Raises `InvalidArgumentException` for a quaternion of length 0.
         """
         self.send_rigid(parent, child, rigid(translation, rotation), stamp)
 
     def send_rigid(self, parent: str, child: str, transform: Rigid, stamp: Time | None = None) -> None:
-        """Send the pose of `child` in `parent`, as seven numbers."""
+        """Send the pose of `child` in `parent`, given as seven numbers, at the time `stamp` (now by default)."""
         when = self.node.clock.now_ns() if stamp is None else stamp.to_nsec()
         self.sendTransform(to_stamped(parent, child, transform, when))
 
     def sendTransform(self, transform: Any) -> None:
-        """Send a `geometry_msgs/TransformStamped`, or a list of them in one message."""
+        """Send a `geometry_msgs/TransformStamped`, or a list of them in one message.
+
+        With a `prefix`, this changes the names of frames in the given messages.
+        """
         several = list(transform) if isinstance(transform, (list, tuple)) else [transform]
         if self.prefix:
             for one in several:
@@ -83,7 +86,7 @@ class TransformBroadcaster:
 
 
 class StaticTransformBroadcaster(TransformBroadcaster):
-    """Sends constant transforms on `/tf_static`, latched: a late subscriber gets all that were sent."""
+    """Sends constant transforms on `/tf_static`, latched: a late subscriber gets the latest one of each child frame."""
 
     TOPIC = "/tf_static"
     LATCH = True

@@ -1,4 +1,4 @@
-"""Buffers of transforms in messages, with tf2's names (http://wiki.ros.org/tf2)."""
+"""Buffers that store transforms from messages and look them up, with tf2's names (http://wiki.ros.org/tf2)."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node, Waiter
 
 LATEST = Time()
-"""Asks for the latest time for which all transforms of the chain are available."""
+"""The time 0: a lookup then uses the latest time for which all transforms of the chain are known."""
 
 
 class BufferCore:
-    """Transforms received in messages, without a node; `tree` stores them as numbers.
+    """A buffer of transforms that works without a node; `tree` stores them as numbers.
 
     `cache_time` is the length of the history, in seconds or as a `Duration` (10 s if None).
     """
@@ -43,9 +43,9 @@ class BufferCore:
     # -- incoming transforms -------------------------------------------------------------------------------------
 
     def set_transform(self, transform: Any, authority: str = "default_authority") -> bool:
-        """Add a `geometry_msgs/TransformStamped`; return True if it was accepted.
+        """Add a `geometry_msgs/TransformStamped` from the node `authority`; return True if it was accepted.
 
-        A leading `/` of a name is removed, as in tf2.
+        A leading `/` of a frame's name is removed, as in tf2.
         """
         return self._set(transform, authority, static=False)
 
@@ -55,7 +55,7 @@ class BufferCore:
             self._set(transform, authority, static=False)
 
     def set_transform_static(self, transform: Any, authority: str = "default_authority") -> bool:
-        """Add a transform that is valid at all times."""
+        """Add a transform that is valid at all times; return True if it was accepted."""
         return self._set(transform, authority, static=True)
 
     def _set(self, message: Any, authority: str, *, static: bool) -> bool:
@@ -69,7 +69,7 @@ class BufferCore:
         )
 
     def clear(self) -> None:
-        """Remove all transforms."""
+        """Remove all transforms except static ones, as tf does when time jumps back."""
         self.tree.clear()
 
     # -- queries -------------------------------------------------------------------------------------------------
@@ -85,20 +85,23 @@ class BufferCore:
     def lookup_transform_full_core(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> Any:
-        """Look up source and target at different times; `fixed_frame` does not move in between."""
+        """Return the pose of the source frame at `source_time` in the target frame at `target_time`.
+
+        `fixed_frame` is a frame that does not move in between. Raises the same errors as `FrameTree.lookup`.
+        """
         found = self.tree.lookup_full(
             target_frame, target_time.to_nsec(), source_frame, source_time.to_nsec(), fixed_frame
         )
         return to_stamped(target_frame, source_frame, *found)
 
     def can_transform_core(self, target_frame: str, source_frame: str, time: Time) -> tuple[bool, str]:
-        """Return whether a lookup would succeed, and the error if not."""
+        """Return whether a lookup would succeed, and the error message if not."""
         return _verdict(lambda: self.lookup_transform_core(target_frame, source_frame, time))
 
     def can_transform_full_core(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> tuple[bool, str]:
-        """Return whether the lookup with two times would succeed, and the error if not."""
+        """Return whether the lookup with two times would succeed, and the error message if not."""
         return _verdict(
             lambda: self.lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)
         )
@@ -113,7 +116,7 @@ class BufferCore:
     # -- contents ------------------------------------------------------------------------------------------------
 
     def all_frames_as_string(self) -> str:
-        """Return a sentence for each edge, as tf words it."""
+        """Return a line for each frame that has a parent, in tf's words."""
         return "".join(
             f"Frame {frame} exists with parent {edge.newest.parent}.\n" for frame, edge in self.tree.edges.items()
         )
@@ -133,7 +136,7 @@ class BufferCore:
 
 
 class Buffer(BufferCore):
-    """The buffer of a node, which can wait: while its lane is blocked, the graph continues.
+    """A node's buffer, whose lookups can wait for transforms: they block the calling lane, not the rest of the graph.
 
     >>> from rosmini import Graph
     >>> from rosmini.core.tf import Buffer, TransformBroadcaster, TransformListener
@@ -156,7 +159,7 @@ class Buffer(BufferCore):
 
     @property
     def node(self) -> Node:
-        """The node that waits, and whose clock is used."""
+        """The node whose clock and log are used. Raises `TransformException` if there is none."""
         if self._node is None:
             raise TransformException("this buffer has no node: give it one to let it wait")
         return self._node
@@ -216,7 +219,10 @@ class Buffer(BufferCore):
     def wait_for_transform(
         self, target_frame: str, source_frame: str, time: Time = LATEST, timeout: float | Duration = 1.0
     ) -> bool:
-        """Block until a lookup would succeed (True), for at most `timeout` seconds (False)."""
+        """Block until a lookup would succeed, for at most `timeout` seconds; return whether it would.
+
+        Raises `ROSInterruptException` if the node shuts down meanwhile.
+        """
         stamp = time.to_nsec()
         return self._wait(
             lambda: self.tree.knows(target_frame, source_frame, stamp),
@@ -232,7 +238,7 @@ class Buffer(BufferCore):
         timeout: float | Duration = 0.0,
         return_debug_tuple: bool = False,
     ) -> bool | tuple[bool, str]:
-        """Return whether a lookup succeeds within `timeout`; with `return_debug_tuple`, also the error."""
+        """Return whether a lookup succeeds within `timeout` [s]; with `return_debug_tuple`, also the error message."""
         self.wait_for_transform(target_frame, source_frame, time, timeout)
         verdict = self.can_transform_core(target_frame, source_frame, time)
         return verdict if return_debug_tuple else verdict[0]
@@ -247,7 +253,7 @@ class Buffer(BufferCore):
         timeout: float | Duration = 0.0,
         return_debug_tuple: bool = False,
     ) -> bool | tuple[bool, str]:
-        """Return whether the lookup with two times succeeds within `timeout`; see `can_transform`."""
+        """Return whether the lookup with two times succeeds within `timeout` [s]; see `can_transform`."""
         arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
         self._wait(lambda: self.can_transform_full_core(*arguments)[0], timeout, _full(*arguments))
         verdict = self.can_transform_full_core(*arguments)
@@ -256,9 +262,9 @@ class Buffer(BufferCore):
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Time = LATEST, timeout: float | Duration = 0.0
     ) -> Any:
-        """Return the pose of `source_frame` in `target_frame`, a `TransformStamped`, after at most `timeout` [s].
+        """Return the pose of `source_frame` in `target_frame` as a `TransformStamped`; wait for it up to `timeout` [s].
 
-        Raises the same errors as `FrameTree.lookup`, and `ROSInterruptException` when the node shuts down meanwhile.
+        Raises the same errors as `FrameTree.lookup`, and `ROSInterruptException` if the node shuts down meanwhile.
         """
         self.wait_for_transform(target_frame, source_frame, time, timeout)
         return self.lookup_transform_core(target_frame, source_frame, time)
@@ -272,13 +278,20 @@ class Buffer(BufferCore):
         fixed_frame: str,
         timeout: float | Duration = 0.0,
     ) -> Any:
-        """Look up source and target at different times, after at most `timeout` [s]."""
+        """Return the pose of the source frame at `source_time` in the target frame at `target_time`.
+
+        `fixed_frame` is a frame that does not move in between. Waits up to `timeout` [s]; raises as `lookup_transform`.
+        """
         arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
         self._wait(lambda: self.can_transform_full_core(*arguments)[0], timeout, _full(*arguments))
         return self.lookup_transform_full_core(*arguments)
 
     def transform(self, object_stamped: Any, target_frame: str, timeout: float | Duration = 0.0) -> Any:
-        """Return a stamped point, vector, pose, quaternion or cloud in another frame, at the time of its header."""
+        """Return a copy of a stamped point, vector, pose, quaternion, wrench or cloud, transformed to `target_frame`.
+
+        Uses the transform at the time in its header. Raises the errors of `lookup_transform`, and `TransformException`
+        for a message of another type.
+        """
         header = object_stamped.header
         found = self.lookup_transform(target_frame, header.frame_id.lstrip("/"), header.stamp, timeout)
         return transformed(object_stamped, found, self._warn_once)
@@ -291,7 +304,7 @@ class Buffer(BufferCore):
         fixed_frame: str,
         timeout: float | Duration = 0.0,
     ) -> Any:
-        """Like `transform`, but at `target_time`; `fixed_frame` must not move in between."""
+        """Transform as `transform` does, but to the target frame at `target_time`; see `lookup_transform_full`."""
         header = object_stamped.header
         found = self.lookup_transform_full(
             target_frame, target_time, header.frame_id.lstrip("/"), header.stamp, fixed_frame, timeout
@@ -299,7 +312,10 @@ class Buffer(BufferCore):
         return transformed(object_stamped, found, self._warn_once)
 
     def transform_points(self, points: Any, target_frame: str, source_frame: str, time: Time = LATEST) -> Floats:
-        """Return points (..., 3) [m] of one frame in another; see `scan_points` for those of a laser scan."""
+        """Return the points (..., 3) [m], given in `source_frame`, in `target_frame`.
+
+        Raises the same errors as `FrameTree.lookup`. `scan_points` returns the points of a laser scan.
+        """
         found = self.tree.lookup(target_frame, source_frame, time.to_nsec())
         return transform_points(found.transform, points)
 

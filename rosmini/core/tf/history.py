@@ -1,4 +1,4 @@
-"""The samples of all frames of a tree in flat arrays, read by `kernel.walk`, and the history of one frame."""
+"""The samples of all frames of a tree, in flat arrays that `kernel.walk` reads, and the history of each frame."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _ROOM = 8
 
 
 class Sample(NamedTuple):
-    """The parent and the broadcaster of a sample."""
+    """The parent frame of a sample, and the node that sent it (its authority)."""
 
     parent: str
     authority: str
@@ -58,14 +58,14 @@ class Samples:
         self._share()
 
     def _grow(self, number: int, size: int) -> None:
-        """Extend an array to at least `size` elements."""
+        """Extend the array at index `number` to at least `size` elements."""
         old = self._arrays[number]
         if len(old) < size:
             self._arrays[number] = np.zeros(max(size, 2 * len(old)), dtype=old.dtype)
             self._arrays[number][: len(old)] = old
 
     def add_frame(self, *, static: bool, room: int) -> tuple[int, int]:
-        """Allocate space for a new frame; return its number and the start of its space."""
+        """Allocate space for `room` samples of a new frame; return its number and the index of the first sample."""
         if self._free_frames:
             frame = self._free_frames.pop()
         else:
@@ -85,7 +85,7 @@ class Samples:
         self._free_frames.append(frame)
 
     def allocate(self, room: int) -> int:
-        """Return the start of `room` contiguous free samples."""
+        """Allocate `room` contiguous samples; return the index of the first one."""
         free = self._free.get(room)
         begin = free.pop() if free else self._used
         if begin == self._used:
@@ -96,16 +96,16 @@ class Samples:
         return begin
 
     def release(self, begin: int, room: int) -> None:
-        """Release space for reuse."""
+        """Release the `room` samples that start at `begin` for reuse."""
         self._free.setdefault(room, []).append(begin)
 
     def move(self, begin: int, end: int, to: int) -> None:
-        """Move samples; source and destination may overlap."""
+        """Move the samples `begin:end` to the index `to`; source and destination may overlap."""
         for array, width in zip(self._arrays, (1, 1, 7), strict=False):
             array[width * to : width * (to + end - begin)] = array[width * begin : width * end]
 
     def origin(self, parent: str, authority: str) -> int:
-        """Return the number of a parent and an authority."""
+        """Return the number for a parent and an authority; `PARENT_SHIFT` describes its bits."""
         found = self._origins.get((parent, authority))
         if found is None:
             number = self._parents.setdefault(parent, len(self._parents))
@@ -114,7 +114,7 @@ class Samples:
         return found
 
     def source_of(self, origin: int) -> Sample:
-        """Return the parent and authority of a number from `origin`."""
+        """Return the parent and the authority for a number from `origin`."""
         return self._sources[origin & ((1 << PARENT_SHIFT) - 1)]
 
 
@@ -177,11 +177,14 @@ class History:
 
     @property
     def rate(self) -> float:
-        """Samples per second, as tf calculates it: over the buffered time, but at least 0.1 ms."""
+        """Samples per second, as tf calculates it: divided by the buffered time, or by 0.1 ms if that is shorter."""
         return len(self) / max(self.span_ns / 1e9, 1e-4)
 
     def add(self, parent: str, transform: Rigid, stamp_ns: int, authority: str) -> Outcome:
-        """Add a sample, in any order; refuse one that is older than the history, or has the stamp of another."""
+        """Add a sample, in any order, and return "kept"; in a static frame it replaces the old one.
+
+        Returns "old" for a sample older than the history, and "repeated" for one with the stamp of another.
+        """
         samples = self._samples
         before, origin = self.newest, self._origin
         known = parent == before.parent and authority == before.authority
@@ -242,7 +245,7 @@ class History:
         self._samples.remove_frame(self.number)
 
     def sample_at(self, stamp_ns: int) -> Sample:
-        """Return the origin of the sample at this time [ns]. Raises `LookupError` if there is none."""
+        """Return parent and authority of the sample at this time [ns]. Raises `LookupError` if there is none."""
         place = find(self._samples.stamps, self._begin, self._end, stamp_ns)
         if self.static or place == self._end or self._samples.stamps[place] != stamp_ns:
             raise LookupError(stamp_ns)

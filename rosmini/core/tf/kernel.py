@@ -18,10 +18,10 @@ Rigid = tuple[float, float, float, float, float, float, float]
 IDENTITY: Rigid = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 PARENT_SHIFT = 32
-"""The bits of an origin from this one up are the parent's number, those below the authority's."""
+"""The bits of an origin from this one up number the parent, those below it the pair of parent and authority."""
 
 FOUND = -1
-"""Returned by `walk` instead of the index of an edge without data."""
+"""Returned by `walk` if all edges have data; otherwise it returns the index of one that does not."""
 
 
 def compose(a: Rigid, b: Rigid) -> Rigid:
@@ -62,7 +62,7 @@ def inverse(a: Rigid) -> Rigid:
 
 
 def interpolate(a: Rigid, b: Rigid, fraction: float) -> Rigid:
-    """Interpolate from `a` (0) to `b` (1): the position linearly, the rotation by slerp (Shoemake, 1985)."""
+    """Interpolate from `a` (fraction 0) to `b` (1): the position linearly, the rotation by slerp (Shoemake, 1985)."""
     ax, ay, az, ai, aj, ak, aw = a
     bx, by, bz, bi, bj, bk, bw = b
     rest = 1.0 - fraction
@@ -131,19 +131,19 @@ def walk(
     ups: int,
     stamp_ns: int,
 ) -> tuple[int, int, Rigid]:
-    """Return the transform along a path of edges, at a time [ns], or for 0 at the latest time known for all of them.
+    """Return the pose of a source frame in a target frame, found along a path of edges.
 
     Args:
         stamps: the time of each sample [ns]; those of one edge are contiguous and sorted.
-        origins: the parent and the authority of each sample.
+        origins: the parent and the authority of each sample, as numbers.
         values: the transform of each sample, seven numbers.
         spans: for each edge the start and end of its samples, and 1 if it is static.
         edge_numbers: the edges from the source up to the common ancestor, then those from the target up to it.
         ups: the number of edges on the source's side.
-        stamp_ns: the time.
+        stamp_ns: the time [ns]; 0 means the latest time known for all edges.
 
     Returns:
-        `FOUND`, or the index in `edge_numbers` of an edge that is not known at that time; the time; the transform.
+        `FOUND`, or the index in `edge_numbers` of an edge that is not known at that time; the time; the pose.
 
     """
     if stamp_ns == 0:

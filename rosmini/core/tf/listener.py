@@ -31,20 +31,20 @@ class TransformListener:
         ]
 
     def callback(self, data: Any) -> None:
-        """Handle a message on `/tf`."""
+        """Add the transforms of a message on `/tf` to the buffer."""
         self.check_for_reset()
         authority = data._connection_header.get("callerid", UNKNOWN)
         self.buffer.set_transforms(data.transforms, authority)
 
     def static_callback(self, data: Any) -> None:
-        """Handle a message on `/tf_static`."""
+        """Add the transforms of a message on `/tf_static` to the buffer."""
         self.check_for_reset()
         authority = data._connection_header.get("callerid", UNKNOWN)
         for transform in data.transforms:
             self.buffer.set_transform_static(transform, authority)
 
     def check_for_reset(self) -> None:
-        """Clear the buffer if time has jumped back."""
+        """Clear the buffer, with a warning, if time has jumped back since the last message."""
         now = self.node.clock.now_ns()
         if now < self.last_update_ns:
             self.node.logwarn("Detected jump back in time. Clearing TF buffer.")

@@ -15,9 +15,9 @@ QUEUE_FULL = "the queue of messages that wait for their transform was full"
 
 
 class MessageFilter:
-    """Passes on a stamped message once it can be transformed into each of `target_frames`, at its stamp.
+    """Passes each stamped message to `callback` once it can be transformed to all `target_frames`, at its stamp.
 
-    With a `tolerance` [s], it must also be possible that much later than its stamp, as with `setTolerance` of
+    With a `tolerance` [s], the transforms must also be known that much later than the stamp, as with `setTolerance` of
     `tf2_ros::MessageFilter`. At most `queue_size` messages wait (0: any number); the oldest is dropped first.
     `failed(message, reason)` is called for each message that is dropped.
     """
@@ -46,7 +46,7 @@ class MessageFilter:
         return len(self._waiting)
 
     def add(self, message: Any) -> None:
-        """Add a message with a header."""
+        """Add a message with a header: pass it on, drop it, or let it wait."""
         if not message.header.frame_id.lstrip("/"):
             self._drop(message, NO_FRAME)
         elif not self._pass_or_drop(message):
@@ -90,7 +90,10 @@ class MessageFilter:
         return True
 
     def _newest(self, target: str, source: str) -> int:
-        """Return the latest time [ns] for which all transforms between two frames are known; 0: none, or all times."""
+        """Return the latest time [ns] for which all transforms between two frames are known.
+
+        It is 0 if there is none, or if all transforms are static.
+        """
         try:
             return self.buffer.tree.latest_common_time(target, source)
         except TransformException:

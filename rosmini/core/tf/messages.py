@@ -1,4 +1,4 @@
-"""Conversion of transforms to and from messages, and of messages between frames: points, poses, clouds..."""
+"""Conversion of transforms to and from messages, and of messages (points, poses, clouds ...) between frames."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def from_transform(message: Any) -> Rigid:
 
 
 def to_stamped(parent: str, child: str, transform: Rigid, stamp_ns: int) -> Any:
-    """Return a `geometry_msgs/TransformStamped` with the pose of `child` in `parent` at a time."""
+    """Return a `geometry_msgs/TransformStamped` with the pose of `child` in `parent` at a time [ns]."""
     cls: Any = message_class("geometry_msgs/TransformStamped")
     return _maker(cls)(parent, *divmod(stamp_ns, 1_000_000_000), child, *transform)
 
@@ -107,7 +107,7 @@ def _cloud(message: Any, transform: Rigid) -> None:
 
 
 def cloud_view(message: Any, data: bytearray) -> list[NDArray[Any]]:
-    """Return x, y and z of a `sensor_msgs/PointCloud2` as views (n) into `data`, a copy of its data.
+    """Return x, y and z of a `sensor_msgs/PointCloud2` as views (height, width) of `data`, a copy of its data.
 
     Raises `TransformException` if it lacks floating-point fields of these names.
     """
@@ -162,8 +162,8 @@ ROTATIONS: dict[str, Callable[[Any], Any]] = {
 def transformed(message: Any, stamped: Any, warn: Callable[[str], object] = lambda _text: None) -> Any:
     """Return a copy of a message in another frame; `stamped` is the `TransformStamped` of its frame in that frame.
 
-    The copy has the header of `stamped`. A quaternion of length 0, as in a new `PoseStamped`, counts as no
-    rotation, as in `tf.TransformerROS`; `warn` receives a sentence about it.
+    The copy has the frame and stamp of `stamped`. A quaternion of length 0, as in a new `PoseStamped`, is replaced by
+    no rotation, as in `tf.TransformerROS`, and `warn` is called with a warning.
 
     Raises `TransformException` for a type that cannot be transformed.
     """
@@ -189,7 +189,7 @@ def transformed(message: Any, stamped: Any, warn: Callable[[str], object] = lamb
 def scan_points(scan: Any) -> Floats:
     """Return the end points of the beams of a `sensor_msgs/LaserScan` (n, 3) [m], in the laser's frame.
 
-    Beams without a hit are omitted.
+    Beams whose range is not finite, or not between `range_min` and `range_max`, are omitted.
     """
     ranges = np.asarray(scan.ranges, dtype=np.float64)
     angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges))

@@ -32,9 +32,9 @@ x, y, z in metres, angles in radians: where child_frame_id is in frame_id."""
 
 
 def parse(arguments: tuple[str, ...], period: str = "") -> tuple[str, str, Rigid]:
-    """Return frame, child and transform from the arguments: three metres, then yaw, pitch, roll or a quaternion.
+    """Return frame, child frame and transform from the arguments of the tool, as described by `USAGE`.
 
-    Raises `ScriptError` if they are invalid.
+    Raises `ScriptError`, with `period` in the usage text, if they are invalid.
     """
     usage = USAGE.format(period=period)
     if len(arguments) not in (8, 9):
@@ -58,7 +58,10 @@ def parse(arguments: tuple[str, ...], period: str = "") -> tuple[str, str, Rigid
 
 
 def words_of_parameter(node: Node, name: str) -> tuple[str, ...]:
-    """Return the arguments for the `geometry_msgs/TransformStamped` of a parameter. Raises `ScriptError`."""
+    """Return the arguments of `parse` for a parameter that contains a `geometry_msgs/TransformStamped`.
+
+    Raises `ScriptError` if the parameter is not set, or lacks a field.
+    """
     stamped = node.get_param(name, None)
     try:
         transform = stamped["transform"]
@@ -75,7 +78,7 @@ def words_of_parameter(node: Node, name: str) -> tuple[str, ...]:
 class StaticTransformPublisher:
     """`tf2_ros/static_transform_publisher`: one transform, latched on `/tf_static`.
 
-    Its only argument may be the name of a parameter that has the transform.
+    Instead of the transform, the only argument may be the name of a parameter that contains it.
     """
 
     def __init__(self, node: Node, *arguments: str) -> None:
@@ -111,12 +114,12 @@ class RepeatingTransformPublisher:
 
 
 def listed(values: Iterable[float]) -> str:
-    """Return numbers with three decimals, without a negative zero."""
+    """Return a list of numbers as text, with three decimals and without negative zeros."""
     return "[" + ", ".join(f"{round(value, 3) + 0.0:.3f}" for value in values) + "]"
 
 
 def report(found: Found) -> str:
-    """Return the tool's output for a transform."""
+    """Return the output of `tf_echo` for a transform."""
     angles = rpy(found.transform)
     return (
         f"At time {found.stamp_ns / 1e9:.3f}\n"
@@ -147,7 +150,7 @@ class TfEcho:
         self.timer = node.timer(period, lambda _event: self.echo())
 
     def echo(self) -> None:
-        """Print the transform now, or the error."""
+        """Print the latest transform, or the error if there is none."""
         try:
             text = report(self.buffer.tree.lookup(*self.frames))
         except TransformException as error:
@@ -159,11 +162,11 @@ class TfEcho:
 
 
 KEPT = 1000
-"""Number of latest messages of a node, or transforms of a frame, used for the statistics."""
+"""Maximum number of messages of a node, or transforms of a frame, in the statistics: the latest ones count."""
 
 
 class Delays:
-    """Delays of the latest transforms of one sender or frame [s]."""
+    """Delays [s] of the latest transforms of one sender or frame, from their stamp to their arrival."""
 
     def __init__(self) -> None:
         self.times: deque[float] = deque(maxlen=KEPT)
@@ -171,7 +174,7 @@ class Delays:
         self.sender = ""
 
     def add(self, now: float, delay: float) -> None:
-        """Add a transform received at `now`."""
+        """Add a transform that was received at `now` [s], with its delay [s]."""
         self.times.append(now)
         self.delays.append(delay)
 
@@ -186,7 +189,7 @@ class Delays:
 
 
 class TfMonitor:
-    """Prints statistics once a second, for all frames or for the chain between two.
+    """Prints delays and rates of transforms once a second, for all frames or for the chain between two.
 
     Raises `ScriptError` if only one frame is given.
     """
@@ -251,9 +254,10 @@ LISTEN_S = 5.0
 
 
 class ViewFrames:
-    """Writes `frames.gv` (for graphviz) and `frames.svg` (drawn by rosmini) to the working directory.
+    """Listens for `LISTEN_S` seconds, then writes `frames.gv` (for graphviz) and `frames.svg` to `folder`, and ends.
 
-    The real tool converts `frames.gv` to `frames.pdf`. `picture` is the drawing. The node then ends.
+    rosmini draws `frames.svg`, which is also the attribute `picture`; the real tool converts `frames.gv` to
+    `frames.pdf` instead.
     """
 
     def __init__(self, node: Node, folder: str = ".") -> None:

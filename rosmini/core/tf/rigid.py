@@ -1,8 +1,8 @@
 """Rigid transforms: seven floats, x, y, z [m] and the quaternion x, y, z, w, ordered as in `geometry_msgs/Transform`.
 
 The transform of frame `b` in frame `a` is the pose of `b` in `a`: it maps the coordinates of a point in `b` to those
-in `a`. Transforms are tuples, not
-arrays: for a single transform Python's floats are ten times as fast as numpy. Points are arrays (..., 3).
+in `a`. Transforms are tuples, not arrays: for a single transform Python's floats are ten times as fast as numpy.
+Points are arrays (..., 3).
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ Floats = NDArray[np.float64]
 def rigid(translation: Sequence[float] = (0.0, 0.0, 0.0), rotation: Sequence[float] = (0.0, 0.0, 0.0, 1.0)) -> Rigid:
     """Return a translation (3) [m] and a quaternion (4: x, y, z, w) as a transform, with the quaternion normalised.
 
-    Raises `InvalidArgumentException` for a quaternion of length 0.
+    Raises `InvalidArgumentException` for a quaternion whose length is 0 or not finite.
     """
     x, y, z = (float(value) for value in translation)
     qx, qy, qz, qw = (float(value) for value in rotation)
@@ -90,7 +90,7 @@ def rpy(transform: Rigid) -> tuple[float, float, float]:
 
 
 def matrix(transform: Rigid) -> Floats:
-    """Return the homogeneous matrix (4, 4)."""
+    """Return the homogeneous matrix (4, 4) of a transform."""
     x, y, z, i, j, k, w = transform
     return np.array(
         [
@@ -103,12 +103,12 @@ def matrix(transform: Rigid) -> Floats:
 
 
 def transform_points(transform: Rigid, points: ArrayLike) -> Floats:
-    """Transform points (..., 3) [m] from the frame of which `transform` is the pose to its parent frame."""
+    """Return the points (..., 3) [m] in the parent frame; `transform` is the pose of the frame they are given in."""
     whole = matrix(transform)
     result: Floats = matrix_product(points, whole[:3, :3].T) + whole[:3, 3]
     return result
 
 
 def rotate(transform: Rigid, vectors: ArrayLike) -> Floats:
-    """Rotate vectors (..., 3), which have a direction but no position."""
+    """Return vectors (..., 3) rotated, but not moved, by a transform."""
     return matrix_product(vectors, matrix(transform)[:3, :3].T)

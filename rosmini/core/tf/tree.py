@@ -1,6 +1,6 @@
 """The tree of frames over time, and the transform between any two of them (http://wiki.ros.org/tf2).
 
-It uses plain values: names, times as integers [ns], transforms as `Rigid`. No node, message or clock.
+It works with plain values (names, times as integers [ns], transforms as `Rigid`), without nodes, messages or clocks.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ CACHE_NS = 10_000_000_000
 """Default length of the history [ns]: tf's 10 s."""
 
 LATEST = 0
-"""Asks for the latest time for which the whole chain is known: `Time(0)`."""
+"""The time 0: a lookup then uses the latest time for which the whole chain is known, as for `Time(0)`."""
 
 PATHS_KEPT = 4096
 
@@ -58,12 +58,12 @@ class Path(NamedTuple):
 
 
 class FrameTree:
-    """Frames with their parents, over time.
+    """Stores the transforms of frames over time, and computes the transform between any two frames.
 
     Args:
         cache_ns: length of the history [ns].
-        warn: called for refused data, once per frame and reason.
-        now_ns: returns the time; only used in error messages.
+        warn: called with a warning about refused data, once per frame and reason.
+        now_ns: returns the current time [ns]; only used in error messages.
 
     """
 
@@ -93,9 +93,8 @@ class FrameTree:
     ) -> bool:
         """Add the transform of `child` in `parent` at a time [ns], sent by `authority`; return True if accepted.
 
-        As in tf, invalid data (a frame in itself, an empty name, nan, an invalid quaternion) are refused
-        with a warning, not an error, and so is a repeated or too old time. A
-        frame that is static at first remains static.
+        As in tf, invalid data (a frame in itself, an empty name, nan, an invalid quaternion) are refused with a
+        warning, not an error, and so is a repeated or too old time. A frame that is static at first remains static.
         """
         reason = self._warnings.check(parent, child, transform)
         if reason is not None:
@@ -205,7 +204,7 @@ class FrameTree:
         return Found(transform, stamp_ns)
 
     def knows(self, target: str, source: str, stamp_ns: int = LATEST) -> bool:
-        """Return whether `lookup` would succeed: faster than `why_not` if it often would not."""
+        """Return whether `lookup` would succeed. If it fails often, this is faster than `why_not`."""
         if target == source and target:
             return True
         if target not in self or source not in self:
@@ -216,7 +215,7 @@ class FrameTree:
             return False
 
     def _found(self, target: str, source: str, stamp_ns: int) -> tuple[Path, int, int, Rigid]:
-        """Return the path, the edge on it that is not known at that time or `FOUND`, the time, and the transform."""
+        """Return the path, the index of an edge that is not known then (or `FOUND`), the time, and the transform."""
         if self._walk is walk:
             self._slow_lookups += 1
             if self._slow_lookups % LOOKUPS_LOADED == 0:
@@ -271,7 +270,7 @@ class FrameTree:
     # -- paths ---------------------------------------------------------------------------------------------------
 
     def _path(self, target: str, source: str, stamp_ns: int) -> Path:
-        """Return the edges between two frames at a time."""
+        """Return the path between two frames at a time [ns]. Raises the errors of `lookup` for names and paths."""
         for frame, role in ((target, "target_frame"), (source, "source_frame")):
             self._check(frame, role)
         up = self._ancestors(source, stamp_ns)

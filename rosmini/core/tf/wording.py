@@ -81,7 +81,7 @@ class ErrorTexts:
         )
 
     def frames(self) -> str:
-        """Return a sentence for each edge, as tf words it, with its sender."""
+        """Return a line for each frame that has a parent, in tf's words, with the sender of its transform."""
         return "\n".join(
             f"Frame {frame} exists with parent {history.newest.parent}"
             + (f" (from {history.newest.authority})." if history.newest.authority else ".")
@@ -180,7 +180,7 @@ def draw(tree: FrameTree) -> str:
 
 
 class DataWarnings:
-    """Warnings about refused data, each once per frame; on a real robot they repeat at the rate of the data."""
+    """Warns about suspicious data, once per frame and kind; in ROS these warnings repeat at the rate of the data."""
 
     def __init__(self, warn: Callable[[str], object]) -> None:
         self._warn = warn
@@ -196,7 +196,7 @@ class DataWarnings:
 
     @staticmethod
     def check(parent: str, child: str, transform: Rigid) -> str | None:
-        """Return the error in a transform, or None."""
+        """Return the warning about an invalid transform, with `{sender}` as a placeholder, or None if it is valid."""
         if parent == child:
             return f'TF_SELF_TRANSFORM: {{sender}} says where frame "{child}" is in itself; ignored.'
         if not child:
@@ -219,7 +219,7 @@ class DataWarnings:
         return None
 
     def repeated(self, history: History, stamp_ns: int, authority: str) -> None:
-        """Warn of a second transform for the same time."""
+        """Warn about a second transform of a frame for the same time [ns]."""
         first = history.sample_at(stamp_ns).authority
         frame = history.frame
         if first == authority:
@@ -238,7 +238,7 @@ class DataWarnings:
         )
 
     def old(self, history: History, stamp_ns: int, authority: str) -> None:
-        """Warn of a transform that is too old."""
+        """Warn about a transform that is older than the history of its frame."""
         frame = history.frame
         self.warn_once(
             frame,
@@ -251,7 +251,7 @@ class DataWarnings:
         )
 
     def two_parents(self, history: History, parent: str, authority: str) -> None:
-        """Warn of a frame that gets another parent from another sender."""
+        """Warn about a frame for which another sender names another parent."""
         before = history.newest
         if before.authority == authority:
             return  # a sender may move its own frame

@@ -1,4 +1,4 @@
-"""Verbs that listen: their duration, and their node."""
+"""Support for verbs that listen for a while: how long they run, and the node they use."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Span(NamedTuple):
 
     @classmethod
     def of(cls, graph: Graph, duration_ns: int | None) -> Self:
-        """Return the period that starts now."""
+        """Return the period that starts now and lasts `duration_ns`, or has no end for None."""
         return cls(graph, None if duration_ns is None else graph.scheduler.now_ns() + duration_ns)
 
     def is_over(self) -> bool:
@@ -44,7 +44,7 @@ class Span(NamedTuple):
             return
 
     def wait(self, node: Node, reason: str, begin: Callable[[Callable[[], None]], object]) -> None:
-        """Let time pass until the function passed to ``begin`` is called, or until the end or Ctrl-C."""
+        """Call ``begin(stop)``, then let time pass until ``stop()`` is called, or until the end or Ctrl-C."""
         waiter = node.waiter(reason)
         begin(waiter.wake)
         left = None if self.end_ns is None else max(self.end_ns - self.graph.scheduler.now_ns(), 0)
@@ -58,9 +58,9 @@ class Span(NamedTuple):
 
 @contextmanager
 def tool_node(graph: Graph, name: str = "rostopic") -> Iterator[Node]:
-    """Start a tool's node, under a unique name that begins with ``name``, and shut it down at the end.
+    """Start a node for a tool, with a unique name that begins with ``name``, and shut it down at the end.
 
-    Raises ``MasterUnreachable`` at once, whereas a node would wait for the Master.
+    Raises ``MasterUnreachable`` at once if no Master responds, whereas a node would wait for the Master.
     """
     graph.ask_as(f"/{name}").ask("getPid")
     node = graph.node(name, anonymous=True)

@@ -32,7 +32,7 @@ class Parser(OptionParser):
         usage: the usage line.
         description: a description of the command.
         example: one or more command lines, shown below the options.
-        failure: makes the error from its text.
+        failure: returns the error to raise for a message.
 
     """
 
@@ -50,7 +50,7 @@ class Parser(OptionParser):
         self._failure = failure
 
     def error(self, msg: str) -> NoReturn:
-        """Raise ``UsageError``."""
+        """Raise the error ``failure(...)``, which contains the usage line and the message."""
         raise self._failure(f"{self.get_usage().rstrip()}\n\n{self.prog}: error: {msg}")
 
     def flag(self, *names: str, help: str, dest: str | None = None) -> None:
@@ -65,7 +65,10 @@ class Parser(OptionParser):
             self.error(problem)
 
     def parse(self, words: Sequence[str], /) -> Values:
-        """Return the options, the arguments as ``words``, and the command line as ``argv``. Raises ``UsageError``."""
+        """Return the options, with the other arguments as ``words`` and the command line as ``argv``.
+
+        Raises ``UsageError`` for an unknown or incomplete option.
+        """
         values, rest = self.parse_args(list(words))
         values.words, values.argv = rest, list(words)
         return values
@@ -82,7 +85,7 @@ def global_name(name: str) -> str:
 
 
 def dashed_remapping(words: Iterable[str]) -> str:
-    """Return the error in the first word like ``--name:=x``, or an empty text: ROS uses ``__name:=x``."""
+    """Return an error message for the first word like ``--name:=x``, which ROS spells ``__name:=x``; empty if none."""
     found = next((word for word in words if word.startswith("-") and ":=" in word), "")
     return (
         f"{found} is no remapping; ROS's own names begin with two underscores: __{found.lstrip('-')}" if found else ""
@@ -96,7 +99,7 @@ def below_here(call: Call) -> Callable[[str], object]:
 
 
 def add_duration(parser: Parser) -> None:
-    """Add the option for the duration of a verb."""
+    """Add the option ``--duration``, the time after which a verb ends [s]."""
     parser.add_option(
         "--duration",
         type="float",

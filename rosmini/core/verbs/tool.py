@@ -42,7 +42,7 @@ class VerbError(CommandError):
 
 @dataclass(frozen=True, kw_only=True)
 class Result:
-    """The result of a verb. Its text is the tool's output; ``complaints`` are partial failures."""
+    """The result of a verb. Its text is the tool's output; ``complaints`` are messages about partial failures."""
 
     complaints: tuple[str, ...] = ()
     status: int = 0
@@ -83,7 +83,7 @@ class Call:
     """
 
     peers: Peers
-    """The graph on which the verb acts; for a verb that only queries, possibly just access to Master and nodes."""
+    """The graph on which the verb acts. A verb that only queries may get just a connection to Master and nodes."""
     say: Callable[[str], object] = print
     warn: Callable[[str], object] = _to_stderr
     read_line: Callable[[], str] | None = None
@@ -94,12 +94,12 @@ class Call:
 
     @property
     def graph(self) -> Graph:
-        """The graph. Not available to verbs that only query."""
+        """The graph. Verbs that only query must not use it."""
         return cast("Graph", self.peers)
 
     @property
     def in_terminal(self) -> bool:
-        """True in a terminal, where a verb runs until Ctrl-C; in Python it ends after some time."""
+        """True in a terminal, where a verb runs until Ctrl-C; in Python it ends after `DURATION_S` by default."""
         return self.read_line is not None
 
 
@@ -114,17 +114,17 @@ class Parser(Protocol):
 
 
 class ArgumentParser(argparse.ArgumentParser):
-    """argparse's parser, which raises ``UsageError`` and leaves `--help` to the tool."""
+    """A parser of argparse that raises ``UsageError`` instead of exiting, and leaves `--help` to the tool."""
 
     def __init__(self, prog: str, description: str, **options: Any) -> None:
         super().__init__(prog=prog, description=description, add_help=False, **options)
 
     def parse(self, words: Sequence[str], /) -> argparse.Namespace:
-        """Return the options. Raises ``UsageError``."""
+        """Return the options and arguments. Raises ``UsageError`` if they are wrong."""
         return self.parse_args(list(words))
 
     def error(self, message: str) -> NoReturn:
-        """Raise ``UsageError``."""
+        """Raise ``UsageError`` with the message and the usage line."""
         raise UsageError(f"{self.prog}: {message}. {self.format_usage().strip()}")
 
 
@@ -138,9 +138,9 @@ class Verb:
     act: Callable[[Any, Call], Result]
     needs_graph: bool = False
     only_asks: bool | Callable[[Any], bool] = False
-    """True if the verb, with these options, needs no node, because it only queries the Master and the nodes."""
+    """True if the verb (perhaps depending on its options) only queries Master and nodes, and needs no node itself."""
     in_terminal: Callable[[Sequence[str]], int] | None = None
-    """Replacement in a terminal, for verbs that run nodes there until Ctrl-C."""
+    """Replaces a verb that runs nodes until Ctrl-C in a terminal: takes the words, and returns the exit status."""
     is_listed: bool = True
     """True if it appears in the list of verbs."""
     takes: str = ""
@@ -172,16 +172,25 @@ class Overview:
 class Tool:
     """A tool and the table of its verbs.
 
-    ``usage_status`` is the exit status for a wrong command line; ``elsewhere`` are commands of ROS's tool
-    that rosmini does not have; ``example`` is the node to start with `+` in examples. A tool with a ``purpose`` acts on
-    the graph of the Master at ``ROS_MASTER_URI``; the purpose appears in the
-    ``overview`` that it prints if the first word is not a command. ``failure_status`` is the
-    exit status if no Master answers. A tool with ``needs_graph`` does more than read files. One that
-    ``reads_files`` only does so in a terminal; its other verbs have an ``in_terminal`` function.
-    A tool that does one thing, such as roswtf, has an ``only_verb``, which is not typed. One that
-    ``takes_arguments`` of launch files, ``name:=value``, gets them; for others such words are remappings. One that
-    ``is_magic`` is also a line magic of notebooks. ``group`` is its heading in `rosmini --help`, if not "ROS's own
-    commands".
+    Args:
+        name: the name of the command.
+        summary: one line for the help texts.
+        usage_status: the exit status for a wrong command line.
+        elsewhere: commands of ROS's tool that rosmini does not have.
+        why_elsewhere: the reason, for the error message.
+        example: the node to start with `+` in examples.
+        purpose: one line for the ``overview``; a tool that has it acts on the graph of the Master at
+            ``ROS_MASTER_URI``.
+        overview: what the tool prints if the first word is not a command.
+        failure_status: the exit status if no Master responds.
+        needs_graph: False if the tool only reads files.
+        reads_files: the tool only reads files in a terminal, except for verbs with an ``in_terminal`` function.
+        only_verb: the verb of a tool that does one thing, such as roswtf; it is not typed.
+        takes_arguments: words of the form ``name:=value`` are arguments of launch files, not remappings.
+        is_magic: the tool is also a line magic of notebooks.
+        group: its heading in `rosmini --help`, if not "ROS's own commands".
+        verbs: the verbs, by name; see :meth:`verb`.
+
     """
 
     name: str
@@ -235,7 +244,7 @@ class Tool:
         raise UsageError(f"Unknown command: '{name}'\n{self.name}: there is no command {name!r}; {hint}")
 
     def help(self) -> str:
-        """Return the list of verbs."""
+        """Return the help text of the tool, with the list of its verbs."""
         width = max(map(len, self.verbs))
         listed = "\n".join(f"   {verb.name:<{width}}   {verb.summary}" for verb in self.verbs.values())
         return (
@@ -254,11 +263,9 @@ class Tool:
         tells_time: bool = False,
         console: Mapping[str, Any] | None = None,
     ) -> Result:
-        """Run the command given by the words on ``graph`` (default: the default graph), and return the result.
+        """Run the command given by the words on ``graph`` (None: the default graph), and return its result.
 
-        For ``say`` and ``warn`` see :class:`Call`.
-
-        Raises ``UsageError`` for wrong words, and the errors of the verb.
+        For the other arguments, see :class:`Call`. Raises ``UsageError`` for wrong words, and the errors of the verb.
         """
         text = [os.fspath(word) if isinstance(word, os.PathLike) else str(word) for word in words]
         text = self.with_verb(text)
@@ -275,7 +282,7 @@ class Tool:
         return verb.do(given, Call(used, say, warn, tells_time=tells_time, console=console or {}))
 
     def alone(self, verb: str) -> Tool:
-        """Return a tool with only one of the verbs: ``rqt_graph`` for ``graph`` of ``rqt``."""
+        """Return a tool that only runs this verb: ``rqt_graph`` for ``graph`` of ``rqt``."""
         summary = f"{self.name}: {self.verbs[verb].summary}"
         return replace(self, name=f"{self.name}_{verb}", summary=summary, only_verb=verb)
 
@@ -319,7 +326,7 @@ class Prompt:
 
 @dataclass(frozen=True, kw_only=True)
 class Shown(Result):
-    """A view, and in a terminal the page that it was saved to."""
+    """A view, and the page that it was saved to (None if it was not saved)."""
 
     view: Any
     path: Path | None = None
@@ -332,7 +339,10 @@ class Shown(Result):
 
 
 def shown(view: Any, name: str, given: Values, call: Call) -> Shown:
-    """Save the view to the requested page; in a terminal, open a temporary page in the browser by default."""
+    """Save the view to the page named by ``--output``, if any, and return it as a result.
+
+    Without that option, a terminal shows a temporary page in the browser.
+    """
     if given.output:
         return Shown(view=view, path=view.save(given.output))
     if not call.in_terminal:

@@ -61,7 +61,7 @@ def _reader(cls: Any) -> tuple[tuple[str, ...], Callable[[Any], tuple[Any, ...]]
 
 
 class _NotSmall(Exception):
-    """The message has an array, or something else that cannot be shown in one line."""
+    """The message contains an array, or another field that cannot be shown in one line."""
 
 
 def _fields(cls: Any) -> Iterator[str]:

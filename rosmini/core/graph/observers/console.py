@@ -1,4 +1,4 @@
-"""The log of a graph, as the window of ``rqt_console`` collects it (http://wiki.ros.org/rqt_console)."""
+"""Collection of a graph's log messages, as in ``rqt_console`` (http://wiki.ros.org/rqt_console)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class Console:
 
     Args:
         graph: the graph whose log is collected.
-        limit: maximum number of messages to keep, the newest; by default rqt_console's own limit.
+        limit: maximum number of messages to keep (the newest); by default rqt_console's own limit.
         name: name of the node that listens.
         node: an existing node to use as the listener; it continues when the console is closed.
 

@@ -1,8 +1,8 @@
 """Injected faults: lost, late and duplicated messages, killed nodes, clock jumps, services that are cut off.
 
-They act between a node and its transport, its Master and its clock, so no node's code knows of them, and a graph
-without faults has no overhead. Random numbers come from a seed, separately for each connection: the same
-messages are lost in each run, whichever other nodes listen.
+They act between a node and its transport, its Master and its clock, so the code of nodes does not change, and a graph
+without faults has no overhead. Random numbers come from a seed, separately for each connection: the same messages are
+lost in each run, whichever other nodes listen.
 """
 
 from __future__ import annotations
@@ -168,8 +168,9 @@ class Faults:
     ) -> TopicFault:
         """Disturb the messages of a topic on their way to the node ``to``, or to all subscribers in this process.
 
-        A topic has one fault for each ``to``, and a later one replaces it; a node's fault adds to the one for all.
         ``lose`` and ``double`` are probabilities, ``delay`` and ``jitter`` seconds; ``seed`` is the graph's by default.
+        A topic has one fault for each ``to``: a later one replaces it. A node's fault adds to the one for all. Return
+        the fault.
         """
         publishers, subscribers, _ = self._host.ask_as(CALLER_ID).ask("getSystemState")
         heard = dict(subscribers)
@@ -195,7 +196,7 @@ class Faults:
         self._node(name).kill()
 
     def jump(self, seconds: float, name: str = "") -> None:
-        """Make the clock of a node, or of all nodes of this process, jump. Simulators of this process are not affected.
+        """Make the clock of a node, or of all nodes of this process, jump by ``seconds``; simulators are not affected.
 
         Raises ``FaultError`` for a node that uses the topic ``/clock``.
         """
@@ -214,7 +215,10 @@ class Faults:
         node.clock = WrongClock(self._host.scheduler, int(seconds * 1e9))
 
     def clear(self, name: str = "") -> int:
-        """End the faults of a topic, service or node, or all faults; return their number. Killed nodes stay dead."""
+        """End the faults of a topic, service or node, or all faults; return their number. Killed nodes stay dead.
+
+        Raises ``FaultError`` if there is no fault of this name.
+        """
         topics = [key for key in self._topics if name in ("", *key)]
         services = {service for service in self._host.transport.cut if name in ("", service)}
         jumps = [node for node in self._jumps if name in ("", node)]

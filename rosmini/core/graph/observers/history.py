@@ -96,7 +96,7 @@ class Event:
     arguments: str = ""
     """The arguments of a call, abbreviated."""
     answer: str | None = None
-    """The answer to a call, abbreviated; the reason if a request failed."""
+    """The response to a call or a request, abbreviated; the reason if a request failed; None if none has arrived."""
     count: int = 0
     """Number of publications on the topic, or requests of the service, since recording began, including this one."""
     message: Values | None = None
@@ -107,7 +107,7 @@ class Event:
     cause: int | None = None
     """Number of the event that caused this one."""
     heard: tuple[int, ...] = ()
-    """Numbers of the last deliveries to the publishing node, one for each topic."""
+    """Numbers of the latest deliveries to the publishing node, one for each topic."""
 
     @property
     def time(self) -> float:
@@ -196,7 +196,7 @@ class History:
         return self._acting()[1]
 
     def called(self, who: str, uri: str, method: str, arguments: tuple[Any, ...], answer: Any) -> None:
-        """Record a call of the Master's API (no ``uri``), or of the slave API at ``uri``, and its answer."""
+        """Record a call of the Master's API (no ``uri``), or of the slave API at ``uri``, and its response."""
         if not self._scheduler.is_scheduler_thread():
             self._scheduler.call_soon_threadsafe(
                 partial(self.called, who, uri, method, arguments, answer)
@@ -325,7 +325,7 @@ class History:
         return event
 
     def answered(self, request: Event, response: Any, problem: str | None) -> None:
-        """Record the answer to a request."""
+        """Record the response to a request, or the text ``problem`` if the request failed."""
         answer = problem if problem is not None else brief(values(response))
         request.answer = answer
         self._note("answer", request.whom, request.who, request.about, arguments=answer, cause=request.number)
@@ -366,7 +366,7 @@ class History:
 
 
 class _Deliveries(Observer):
-    """Records each delivery on one connection as the cause of what its callbacks then do."""
+    """Records each delivery on one connection as the cause of the events that its callbacks cause."""
 
     def __init__(self, history: History, connection: Connection) -> None:
         self._history = history

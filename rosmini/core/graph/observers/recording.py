@@ -12,7 +12,7 @@ from rosmini.core.graph.show import show
 from .history import MASTER, Event, History
 
 Call = tuple[str, str, str, str | None]
-"""(caller, callee, text, the answer or None), the form that a sequence diagram needs."""
+"""(caller, callee, text, response or None): the form that a sequence diagram needs."""
 
 STANDARD_SERVICES = ("/get_loggers", "/set_logger_level")
 """Endings of the names of the services that every node offers."""
@@ -48,7 +48,7 @@ class Recording:
         self.stop()
 
     def stop(self) -> None:
-        """Stop recording. Harmless when repeated."""
+        """Stop recording. Safe to call again."""
         if self._stop is None:
             self._stop = self.history.next_number
             self._end()

@@ -25,15 +25,16 @@ WITHOUT = frozenset([TOPIC, "/clock"])
 """Topics without statistics: the clock starts first, and statistics of statistics would never end."""
 
 LENGTH_SIZE = 4
-"""The bytes that precede each message on a wire and contain its length."""
+"""Number of bytes that precede each message on a wire and contain its length."""
 
 SECOND = 1_000_000_000
 
 
 def are_wanted(node: Node, topic: str) -> bool:
-    """Return the value of ``/enable_statistics``; False if the Master does not answer, as in rospy.
+    """Return whether ``/enable_statistics`` is true and the topic can have statistics.
 
-    A Master in this process is asked without recording the call, because the parameter is read for every subscriber.
+    Returns False if the Master does not respond, as in rospy. A Master in this process is called without recording the
+    call, because the parameter is read for every subscriber.
     """
     if topic in WITHOUT:
         return False
@@ -56,7 +57,7 @@ class TopicStatistics:
         self._topic = topic
         self._windows: dict[str, _Window] = {}
         self.elements = self._bounds("elements", 10, 100)
-        """The number of messages below which a window gets longer, and that above which it gets shorter."""
+        """Numbers of messages in a window: below the first it gets longer, above the second shorter."""
         self.seconds = self._bounds("size", 4, 64)
         """Bounds of a window's length [s]."""
 
@@ -89,7 +90,7 @@ class TopicStatistics:
         return window
 
     def close(self) -> None:
-        """Stop publishing."""
+        """Stop publishing statistics."""
         for window in self._windows.values():
             window.close()
         self._windows.clear()
@@ -173,7 +174,7 @@ class _Window:
 
 
 def _spread(name: str, values: list[int]) -> dict[str, Duration]:
-    """Return the fields for the mean, the standard deviation and the maximum of some durations."""
+    """Return the fields for the mean, the standard deviation and the maximum of durations [ns]."""
     mean = sum(values) // len(values) if values else 0
     deviation = isqrt(sum((value - mean) ** 2 for value in values) // len(values)) if values else 0
     fields = {"mean": mean, "stddev": deviation, "max": max(values, default=0)}

@@ -2,8 +2,8 @@
 
 Names, arguments and conventions are those of ROS's module
 (http://docs.ros.org/en/jade/api/tf/html/python/transformations.html); the code follows textbook formulas.
-Angles are in radians; a matrix is multiplied by a column vector on its right. Of the rarely used functions (shears,
-projections, Arcball ...) there are none.
+Angles are in radians; a matrix is multiplied by a column vector on its right. Rarely used functions (shears,
+projections, Arcball ...) are missing.
 """
 
 from __future__ import annotations

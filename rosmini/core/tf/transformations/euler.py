@@ -20,7 +20,7 @@ Axes = str | tuple[int, int, int, int]
 
 
 class Order(NamedTuple):
-    """Static axes, first to last; the axis that is neither first nor second; handedness 1 or -1.
+    """A convention: the static axes, first to last; the axis that is neither first nor second; handedness 1 or -1.
 
     `reversed` is True if the angles are in reverse order.
     """
@@ -32,9 +32,9 @@ class Order(NamedTuple):
 
 
 def order_of(axes: Axes) -> Order:
-    """Interpret a name such as `sxyz`, or tf's tuple (first axis, parity, repetition, frame).
+    """Return the convention for a name such as `sxyz`, or for tf's tuple (first axis, parity, repetition, frame).
 
-    Raises `KeyError` for a name of no convention.
+    Raises `KeyError` for an unknown name.
     """
     if isinstance(axes, str):
         letters = ["xyz".find(letter) for letter in axes[1:]]

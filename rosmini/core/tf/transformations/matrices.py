@@ -1,4 +1,4 @@
-"""Homogeneous matrices (4, 4) of translations and rotations, and their parameters."""
+"""Homogeneous matrices (4, 4): made from translations and rotations, and converted back to them."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ EPS = 8.881784197001252e-16
 """Four times the machine epsilon, as in ROS's module."""
 
 UNIT_TOLERANCE = 1e-8
-"""Tolerance of a test for an eigenvalue."""
+"""Tolerance in the check that a number is an eigenvalue."""
 
 
 def vector_norm(data: ArrayLike, axis: int | None = None, out: Floats | None = None) -> float | Floats | None:
-    """Return the Euclidean length along `axis`: a float for a vector without an axis; None if written to `out`."""
+    """Return the Euclidean length along `axis`: a float if `axis` is None, and None if it is written to `out`."""
     squares = np.asarray(data, dtype=np.float64) ** 2
     if out is not None:
         np.sqrt(np.sum(squares, axis=axis), out=out)
@@ -50,24 +50,24 @@ def unit(data: ArrayLike) -> Floats:
 
 
 def identity_matrix() -> Floats:
-    """Return the identity matrix."""
+    """Return the identity matrix (4, 4)."""
     return np.identity(4)
 
 
 def translation_matrix(direction: ArrayLike) -> Floats:
-    """Return the matrix of a translation by a vector (3)."""
+    """Return the matrix (4, 4) of a translation by a vector (3)."""
     result = np.identity(4)
     result[:3, 3] = np.asarray(direction, dtype=np.float64)[:3]
     return result
 
 
 def translation_from_matrix(matrix: ArrayLike) -> Floats:
-    """Return the translation (3) of a matrix."""
+    """Return the translation (3) of a matrix (4, 4)."""
     return np.array(matrix, dtype=np.float64)[:3, 3].copy()
 
 
 def about(linear: Floats, point: ArrayLike | None) -> Floats:
-    """Return a linear map (3, 3) as a matrix with `point`, or the origin, as fixed point."""
+    """Return the matrix (4, 4) of a linear map (3, 3) that leaves `point` (by default the origin) unmoved."""
     result = np.identity(4)
     result[:3, :3] = linear
     if point is not None:
@@ -77,7 +77,10 @@ def about(linear: Floats, point: ArrayLike | None) -> Floats:
 
 
 def rotation_matrix(angle: float, direction: ArrayLike, point: ArrayLike | None = None) -> Floats:
-    """Return the rotation by an angle [rad] about the axis through `point` (the origin) along `direction`."""
+    """Return the matrix (4, 4) of a rotation by an angle [rad] about the axis `direction` through `point`.
+
+    By default, `point` is the origin.
+    """
     x, y, z = axis = unit(direction)
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     cosine, sine = math.cos(angle), math.sin(angle)
@@ -87,7 +90,7 @@ def rotation_matrix(angle: float, direction: ArrayLike, point: ArrayLike | None 
 def eigenvector(matrix: Floats, value: float) -> Floats:
     """Return an eigenvector of length 1 for an eigenvalue of a matrix (3, 3).
 
-    Raises `ValueError` if that is not one of its eigenvalues.
+    Raises `ValueError` if `value` is not one of its eigenvalues.
     """
     rows = matrix - value * np.identity(3)
     # The eigenvector is perpendicular to all rows: parallel to the longest cross product of two, unless all are
@@ -109,7 +112,7 @@ def eigenvector(matrix: Floats, value: float) -> Floats:
 
 
 def fixed_point(matrix: Floats) -> Floats:
-    """Return a fixed point (4, the last element 1) of a matrix. Raises `ValueError` if there is none."""
+    """Return a fixed point (x, y, z, 1) of a matrix (4, 4). Raises `ValueError` if there is none."""
     linear, moved = matrix[:3, :3], matrix[:3, 3]
     rows = np.identity(3) - linear
     values, axes = eigen(matrix_product(rows.T, rows))
@@ -122,7 +125,10 @@ def fixed_point(matrix: Floats) -> Floats:
 
 
 def rotation_from_matrix(matrix: ArrayLike) -> tuple[float, Floats, Floats]:
-    """Return angle [rad], axis (3) and a point (4) on it. Raises `ValueError` if the matrix is not a rotation."""
+    """Return angle [rad], axis (3) and a point (4) on the axis of a rotation matrix (4, 4).
+
+    Raises `ValueError` if the matrix is not a rotation.
+    """
     whole = np.asarray(matrix, dtype=np.float64)
     linear = whole[:3, :3]
     axis = eigenvector(linear.T, 1.0)
@@ -134,7 +140,7 @@ def rotation_from_matrix(matrix: ArrayLike) -> tuple[float, Floats, Floats]:
 
 
 def concatenate_matrices(*matrices: ArrayLike) -> Floats:
-    """Return the product of matrices, in this order: the last one is applied first."""
+    """Return the product of matrices (4, 4) in the given order: the last one is applied first."""
     result = np.identity(4)
     for matrix in matrices:
         result = matrix_product(result, matrix)

@@ -1,4 +1,4 @@
-"""Composition and decomposition of matrices."""
+"""Composition of homogeneous matrices from scale, shear, rotation, translation and perspective, and decomposition."""
 
 from __future__ import annotations
 
@@ -20,7 +20,10 @@ def compose_matrix(
     translate: ArrayLike | None = None,
     perspective: ArrayLike | None = None,
 ) -> Floats:
-    """Return the product of perspective (4), translation (3), rotation (sxyz), shear (xy, xz, yz) and scale (3)."""
+    """Return a matrix (4, 4) that applies scale (3), shear (xy, xz, yz), rotation, translation (3) and perspective (4).
+
+    The angles are roll, pitch and yaw [rad]. Parts that are None have no effect.
+    """
     result = np.identity(4)
     if perspective is not None:
         result[3, :] = np.asarray(perspective, dtype=np.float64)[:4]
@@ -62,7 +65,7 @@ def decompose_matrix(matrix: ArrayLike) -> tuple[Floats, list[float], list[float
 
 
 def _orthogonal(linear: Floats) -> tuple[Floats, Floats]:
-    """Return a matrix (3, 3) as product of an orthogonal and an upper triangular one with positive diagonal.
+    """Factor a matrix (3, 3) into an orthogonal and an upper triangular one with a positive diagonal.
 
     Uses Gram-Schmidt twice: the second pass removes rounding errors.
     """

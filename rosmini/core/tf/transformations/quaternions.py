@@ -1,4 +1,4 @@
-"""Quaternions as arrays x, y, z, w."""
+"""Quaternions as arrays (4) of x, y, z, w: conversion, products, interpolation and random rotations."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def quaternion_multiply(quaternion1: ArrayLike, quaternion0: ArrayLike) -> Float
 
 
 def quaternion_conjugate(quaternion: ArrayLike) -> Floats:
-    """Return the inverse rotation of a quaternion of length 1."""
+    """Return the conjugate, which is the inverse rotation if the quaternion has length 1."""
     x, y, z, w = _four(quaternion)
     return np.array([-x, -y, -z, w])
 
@@ -46,7 +46,7 @@ def quaternion_inverse(quaternion: ArrayLike) -> Floats:
 
 
 def quaternion_about_axis(angle: float, axis: ArrayLike) -> Floats:
-    """Return the rotation by an angle [rad] about an axis (3)."""
+    """Return the quaternion of a rotation by an angle [rad] about an axis (3) of any length."""
     direction = np.asarray(axis, dtype=np.float64)[:3]
     result = np.zeros(4)
     if scalar_product(direction, direction) > EPS**2:
@@ -101,9 +101,9 @@ def quaternion_from_matrix(matrix: ArrayLike) -> Floats:
 def quaternion_slerp(
     quat0: ArrayLike, quat1: ArrayLike, fraction: float, spin: int = 0, shortestpath: bool = True
 ) -> Floats:
-    """Interpolate between two rotations at constant speed (Shoemake, 1985).
+    """Return the rotation at `fraction` (0 to 1) between two rotations, at constant speed (Shoemake, 1985).
 
-    `spin` adds half turns.
+    `spin` is a number of half turns to add. Without `shortestpath`, the rotation may go the long way round.
     """
     first, second = (four / math.sqrt(scalar_product(four, four)) for four in (_four(quat0), _four(quat1)))
     if fraction in (0.0, 1.0):
@@ -121,9 +121,9 @@ def quaternion_slerp(
 
 
 def random_quaternion(rand: ArrayLike | None = None) -> Floats:
-    """Return a uniformly distributed rotation (Shoemake, 1992) from three numbers in [0, 1).
+    """Return a uniformly distributed random quaternion (Shoemake, 1992), made from three numbers in [0, 1).
 
-    By default these numbers are random.
+    By default these numbers are random, and differ from run to run.
     """
     u, v, w = np.random.default_rng().random(3) if rand is None else np.asarray(rand, dtype=np.float64)
     a, b = math.sqrt(1 - u), math.sqrt(u)
@@ -138,10 +138,10 @@ def random_quaternion(rand: ArrayLike | None = None) -> Floats:
 
 
 def random_rotation_matrix(rand: ArrayLike | None = None) -> Floats:
-    """Return the matrix of `random_quaternion`."""
+    """Return the matrix (4, 4) of `random_quaternion(rand)`."""
     return quaternion_matrix(random_quaternion(rand))
 
 
 def random_vector(size: int) -> Floats:
-    """Return random numbers in [0, 1)."""
+    """Return an array of `size` random numbers in [0, 1), which differ from run to run."""
     return np.random.default_rng().random(size)
