@@ -6,6 +6,7 @@ ever does no harm. The output of scripts is kept, and an error that ends one is 
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any, cast
 
 from rosmini.core.graph import Graph
@@ -85,12 +86,14 @@ class Trial:
         for handle in self._scripts:
             if handle.poll():
                 last = self.output.strip().rpartition("\n")[2] or f"exit status {handle.poll()}"
-                raise Wrong(f"{handle.spec.path} ended with an error: {last}", "fix this error")
+                lines = re.findall(rf'File "<{re.escape(handle.spec.path)}>", line (\d+)', self.output)
+                where = f" in line {lines[-1]}" if lines else ""
+                raise Wrong(f"{handle.spec.path} ended with an error{where}: {last}", "fix this error")
 
     def expect_no_errors(self) -> None:
         """Raise `Wrong` if a script has logged an error, such as that of a callback that failed."""
         if said := self._first_error():
-            raise Wrong(f"Your script logged an error: {said}", "the error names the line and the cause")
+            raise Wrong(f"Your script logged an error: {said}", "fix this error")
 
     def view(self) -> Any:
         """Return the picture of the drive so far; None if nothing was recorded yet."""
@@ -102,9 +105,12 @@ class Trial:
             return None
 
     def _first_error(self) -> str:
-        """Return the first line of the first error that was logged, without its time."""
-        lines = [line for line in self.output.splitlines() if line.startswith("[ERROR]")]
-        return lines[0].partition("]: ")[2] if lines else ""
+        """Return the first error that was logged, without its time, and the line of the script that caused it."""
+        error = re.search(r"^\[ERROR\].*?\]: (.*)(?:\n  \S+, (line \d+), in )?", self.output, re.MULTILINE)
+        if error is None:
+            return ""
+        text, line = error.groups()
+        return f"{text} ({line})" if line else text
 
 
 class TurtleTrial(Trial):

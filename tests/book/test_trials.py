@@ -53,7 +53,7 @@ def test_arguments_are_those_of_rosrun():
 @pytest.mark.parametrize(
     ("source", "said"),
     [
-        ("x = 1 / 0", "bad.py ended with an error: ZeroDivisionError: division by zero"),
+        ("x = 1 / 0", "bad.py ended with an error in line 1: ZeroDivisionError: division by zero"),
         ("import sys\nprint('no')\nsys.exit(3)", "bad.py ended with an error: no"),
         ("import sys\nsys.exit(3)", "bad.py ended with an error: exit status 3"),
     ],
@@ -81,6 +81,7 @@ def test_what_is_wrong_comes_with_the_picture_and_the_first_error():
         raise Wrong("It stands still.", "drive")
     assert "Your script logged: " in str(error.value)
     assert "NameError" in str(error.value)
+    assert str(error.value).endswith("(line 6)")
     assert error.value.view.text.startswith("What the robot did: 0.00 m")
     assert error.value.hint == "drive"
 
