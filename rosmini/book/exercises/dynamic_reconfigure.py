@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
@@ -51,6 +52,11 @@ def camera_cfg(answer: Any) -> None:
         found.name == "Camera",
         f"It makes {found.name}Config, not CameraConfig.",
         'the third argument of generate is the name of the file: "Camera"',
+    )
+    expect(
+        re.search(r"""generate\(\s*["']watcher["']\s*,\s*["']camera["']""", answer),
+        "generate does not get the package and the node of the task.",
+        'its first two arguments are "watcher" and "camera"',
     )
     given = {one.name: one for one in Description.of(found.tree).parameters}
     for name, (kind, level, default, low, high) in SETTINGS.items():

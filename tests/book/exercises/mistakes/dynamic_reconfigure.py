@@ -70,6 +70,7 @@ MISTAKES = {
         _camera("10.0, 1.0", "12.0, 1.0"),
         _camera("1, 1000", "0, 1000"),
         _camera('"Camera"', '"Cameras"'),
+        _camera('"watcher", "camera"', '"camera", "watcher"'),
         _camera("#!/usr/bin/env python3\n", ""),
         _camera('gen.add("flip", bool_t, 2, "turn images upside down", False)\n', ""),
         _camera("exit(", 'gen.add("zoom", int_t, 4, "zoom", 1, 1, 9)\nexit('),
