@@ -29,7 +29,7 @@ KERNELS: list[Callable[[], Kernel]] = []
 def kernel(loop: Kernel, *helpers: Kernel) -> Callable[[Callable[[Any], Any]], Callable[[], Kernel]]:
     """Register a loop, which calls `helpers`; the decorated function receives numba and returns the loop's signature.
 
-    The name then refers to a function that returns the compiled loop, or the plain one if numba is not installed.
+    The decorator replaces it by a function that returns the compiled loop, or the plain one if numba is not installed.
     """
 
     def register(signature: Callable[[Any], Any]) -> Callable[[], Kernel]:

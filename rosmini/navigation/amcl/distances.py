@@ -10,9 +10,9 @@ Floats = NDArray[np.float64]
 Table = NDArray[np.float32]
 
 BORDER_STEP = 1e-4
-"""A beam steps this distance [cells] past the border of a cell, so that rounding does not leave it short of it."""
+"""A beam steps this distance [cells] past the border of a cell, so that rounding does not keep it in the cell."""
 RANGE_ROUNDING = 2e-6
-"""An addition to that, as a fraction of the maximum range; a few times the rounding error of `float32`."""
+"""Additional step past the border, as a fraction of the maximum range: a few rounding errors of `float32`."""
 MIN_DIRECTION = 1e-7
 """Minimum absolute value of a beam's direction along each axis, which avoids dividing by zero."""
 CORNER_DISTANCE = 1.4143
@@ -26,7 +26,8 @@ REMOVAL_STEPS = 8
 def distances(occupied: Bools, farthest: int) -> NDArray[np.float32]:
     """Return the exact distance of each cell (h, w) from the centre of the nearest occupied cell [cells].
 
-    At most `farthest`. A squared distance is the minimum of squares along the row plus squares along the column.
+    Distances above `farthest` [cells] are replaced by it. A squared distance is the minimum, over the cells of the
+    column, of the squared distance along the row plus that along the column.
     """
     height, width = occupied.shape
     limit = farthest + 1
@@ -49,9 +50,9 @@ def distances(occupied: Bools, farthest: int) -> NDArray[np.float32]:
 
 
 def clearances(blocked: Bools, farthest: int) -> Table:
-    """Return how far a beam may go from anywhere in a cell without another lookup [cells]; -1 in blocked cells.
+    """Return the distance that a beam can travel from any point in a cell without a hit [cells]; -1 in blocked cells.
 
-    The shape is (h + 2, w + 2), because the map gets a blocked border.
+    The map (h, w) gets a blocked border, so the result has the shape (h + 2, w + 2).
     """
     walled = np.pad(blocked, 1, constant_values=True)
     free = np.maximum(distances(walled, farthest) - CORNER_DISTANCE, 0.0)

@@ -1,8 +1,9 @@
 """The likelihood of laser beams at each position: the likelihood field and the beam model.
 
-Thrun, Burgard and Fox, Probabilistic Robotics (2005), sections 6.3 and 6.4. A field is a table of what a beam that ends
-in a cell adds to a particle's likelihood, so scoring is a lookup. As in the original (http://wiki.ros.org/amcl), the
-cubes of the likelihoods are added, instead of multiplying likelihoods, because neighbouring beams are not independent.
+Thrun, Burgard and Fox, Probabilistic Robotics (2005), sections 6.3 and 6.4. A field contains for each cell the value
+that a beam which ends there adds to a particle's score, so scoring is a lookup. As in the original
+(http://wiki.ros.org/amcl), the cubes of the likelihoods are added, instead of multiplying likelihoods, because
+neighbouring beams are not independent.
 """
 
 from __future__ import annotations
@@ -71,7 +72,10 @@ class LikelihoodField:
         """The clearances for `cast_beams`; computed when the beam model first needs them."""
 
     def densities(self, mixture: BeamMixture, range_max: float, form: Form) -> tuple[Table, float]:
-        """Return the formed density of a beam for the cell (h, w) where it ends, and that of a beam ending outside."""
+        """Return a table (h, w) for beams that end in each cell, and the value for beams that end outside the map.
+
+        The values are probability densities, cubed or as logarithms by `form`; `range_max` is the laser's [m].
+        """
         wanted = (mixture, range_max, form)
         if self._table is None or self._table[0] != wanted:
             # Squared distances are whole numbers of squared cells, so the few possible values can be tabulated.
@@ -102,7 +106,10 @@ class LikelihoodField:
         return sums
 
     def each(self, table: Table, outside: float, poses: Floats, ends: Floats) -> Floats:
-        """Return the `table` values at the beam ends for each pose and beam (n, b)."""
+        """Return the `table` values at the beam ends for each pose and beam (n, b); `outside` for ends outside the map.
+
+        Arguments are those of `sums`.
+        """
         cos, sin = np.cos(poses[:, 2])[:, None], np.sin(poses[:, 2])[:, None]
         x = poses[:, 0, None] + cos * ends[:, 0] - sin * ends[:, 1]
         y = poses[:, 1, None] + sin * ends[:, 0] + cos * ends[:, 1]

@@ -39,7 +39,7 @@ CONVERGENCE_DISTANCE = 0.5
 """Convergence threshold: all particles lie within this distance [m] of their mean, along x and along y."""
 
 Uniform = Callable[[int], Floats]
-"""Draws a number of poses (n, 3) uniformly from the free cells of a map."""
+"""A function that draws a given number of poses (n, 3) uniformly from the free cells of a map."""
 
 
 @dataclass(frozen=True)
@@ -150,7 +150,10 @@ class ParticleFilter:
         return limits
 
     def resample(self, uniform: Uniform) -> None:
-        """Draw particles by weight until there are enough for the number of histogram cells that they occupy."""
+        """Draw particles by weight until there are enough for the number of histogram cells that they occupy.
+
+        Random particles come from `uniform`. With `selective`, do nothing while the effective number is high.
+        """
         if self.selective and self.effective > 0.5 * len(self.particles):
             return
         share = self.random_share
@@ -261,5 +264,8 @@ def cluster_of(particles: Floats, weights: Floats) -> Cluster:
 
 
 def show_steps(grid: Any, steps: Sequence[tuple[str, ArrayLike, ArrayLike | None, Any]], **options: Any) -> Any:
-    """Draw a filter on a map in steps; a step is a name, particles (n, 3), weights or None, true pose or None."""
+    """Return a picture of a filter's steps on a map.
+
+    A step is a name, particles (n, 3), weights or None, and the true pose or None.
+    """
     return show("filter_steps", grid, steps=steps, **options)

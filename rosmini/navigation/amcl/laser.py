@@ -24,7 +24,7 @@ LIKELIHOOD_DECIMALS = 9
 
 @dataclass(frozen=True)
 class Scan:
-    """A laser scan."""
+    """A laser scan, as the models need it."""
 
     ranges: Floats
     """Ranges (b,) [m]; a value that is not finite or not below `range_max` means no hit."""
@@ -32,13 +32,13 @@ class Scan:
     """Bearings (b,) [rad] in the laser's frame."""
     range_max: float
     laser: Pose = (0.0, 0.0, 0.0)
-    """The laser's pose on the robot."""
+    """The laser's pose in the robot's frame."""
     upside_down: bool = False
-    """True if the laser's z axis points down, which reverses the bearings."""
+    """Return whether the laser's z axis points down, which reverses the bearings."""
 
     @property
     def seen(self) -> Floats:
-        """The ranges that the models use: rounded, with `range_max` for beams without a hit."""
+        """The ranges (b,) [m] that the models use: rounded, with `range_max` for beams without a hit."""
         known: Floats = np.nan_to_num(
             self.ranges.astype(np.float64), nan=self.range_max, posinf=self.range_max, neginf=0.0
         )
@@ -47,7 +47,7 @@ class Scan:
 
     @property
     def directions(self) -> Floats:
-        """The bearings seen from above."""
+        """The bearings (b,) [rad] counter-clockwise as seen from above."""
         return -self.bearings if self.upside_down else self.bearings
 
 
@@ -76,13 +76,13 @@ class LaserModel:
     skip: BeamSkip | None = None
 
     def used_beams(self, count: int) -> slice:
-        """Return which of `count` beams to use: about `max_beams`, evenly spaced."""
+        """Return the slice of `count` beams to use: about `max_beams`, evenly spaced."""
         return slice(0, count, max(1, (count - 1) // max(1, self.max_beams - 1)))
 
     def log_likelihoods(
         self, world: LikelihoodField, particles: Floats, scan: Scan, *, converged: bool = False
     ) -> Floats:
-        """Return each particle's log-likelihood (n,), up to a constant.
+        """Return the log-likelihood (n,) of a scan for each of the particles (n, 3), up to a constant.
 
         `skip` applies only when the filter has `converged`.
         """

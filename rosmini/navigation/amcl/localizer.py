@@ -26,7 +26,7 @@ NO_MAP = "there is no map yet: global localisation needs one"
 
 @dataclass(frozen=True)
 class Estimate:
-    """The result of an update."""
+    """The estimated pose of the robot, with the clusters of particles."""
 
     pose: Pose
     """Mean of the heaviest cluster."""
@@ -36,7 +36,7 @@ class Estimate:
 
 
 class FreeSpace:
-    """The free cells of a map, from which poses are drawn uniformly."""
+    """The free cells of a map, from which poses are drawn uniformly. Raises `RosminiError` if there are none."""
 
     def __init__(self, free: NDArray[np.bool_], resolution: float, origin: tuple[float, float]) -> None:
         self.cells = np.flatnonzero(free)
@@ -46,14 +46,14 @@ class FreeSpace:
         self.resolution, self.origin = resolution, origin
 
     def __contains__(self, point: tuple[float, float]) -> bool:
-        """True if a point [m] is in a free cell."""
+        """Return whether a point [m] is in a free cell."""
         column, row = (math.floor((v - o) / self.resolution) for v, o in zip(point, self.origin, strict=True))
         cell = row * self.width + column
         index = int(np.searchsorted(self.cells, cell))
         return 0 <= column < self.width and index < len(self.cells) and int(self.cells[index]) == cell
 
     def draw(self, count: int, random: np.random.Generator) -> Floats:
-        """Draw poses (count, 3) with any heading at the centres of free cells."""
+        """Return random poses (count, 3) at the centres of free cells, with any heading."""
         cells = self.cells[random.integers(len(self.cells), size=count)]
         return np.column_stack(
             [
@@ -121,7 +121,7 @@ class Localizer:
         self._lasers = {}
 
     def initialize(self, pose: Pose, covariance: ArrayLike) -> None:
-        """Restart the filter around a pose."""
+        """Restart the filter around a pose with a covariance (3, 3)."""
         self.filter.initialize(pose, covariance)
         self.odometry = None
 
@@ -136,10 +136,10 @@ class Localizer:
         return self.free.draw(count, self.random)
 
     def update(self, laser: str, scan: Scan, odometry: Pose) -> bool | None:
-        """Process a scan of the named laser, taken at an odometry pose.
+        """Process a scan of the laser `laser`, taken at the pose `odometry`; return whether there is a new estimate.
 
-        Returns None if the robot has hardly moved since the last scan; with several lasers, each gets one per motion.
-        Otherwise returns True if there is a new estimate: after the first scan, and after resampling.
+        There is one after the first scan and after each resampling. Returns None if the scan was not used, because
+        there is no map, or the robot has hardly moved since the last scan of this laser that was used.
         """
         if self.field is None:
             return None
@@ -171,13 +171,13 @@ class Localizer:
         return before is None or resampled
 
     def _has_moved(self, before: Pose, now: Pose) -> bool:
-        """True if the motion between two odometry poses exceeds `update_min_d` or `update_min_a`."""
+        """Return whether the motion between two odometry poses exceeds `update_min_d` or `update_min_a`."""
         turned = abs(math.remainder(now[2] - before[2], math.tau))
         distance = max(abs(now[0] - before[0]), abs(now[1] - before[1]))
         return distance > self.parameters.update_min_d or turned > self.parameters.update_min_a
 
     def estimate(self) -> Estimate:
-        """Return the estimated pose of the robot."""
+        """Return the estimated pose of the robot: the mean of the heaviest cluster."""
         clusters = self.filter.clusters()
         return Estimate(clusters[0].mean, self.filter.mean().covariance, tuple(clusters))
 

@@ -41,7 +41,7 @@ MAP_RETRY_PERIOD = 0.5
 SCAN_TIMEOUT = 15.0
 """Time without a scan after which there is a warning [s]."""
 MAX_DISORDER_NS = 1_000_000_000
-"""Scans of several lasers may be out of order by less than this; more is a jump back in time."""
+"""Scans of several lasers may be out of order by less than this [ns]; more is a jump back in time."""
 MAX_MAP_ROTATION = 1e-3
 """A map counts as rotated if its origin's heading exceeds this angle [rad]."""
 MAX_JUMP = 5.0
@@ -55,7 +55,7 @@ DEVIATION_AXES = ("x", "y", "yaw")
 
 
 class Amcl:
-    """Localisation as a node."""
+    """The node `amcl`, which runs a `Localizer` on the scans and the map that it receives."""
 
     def __init__(self, node: Node) -> None:
         prepare(node)
@@ -157,7 +157,7 @@ class Amcl:
     # -- the map -------------------------------------------------------------------------------------------------
 
     def _request_map(self) -> None:
-        """Request the map until a server answers."""
+        """Request the map until a server sends a valid one."""
         client = self.node.service_client("static_map", service_class("nav_msgs/GetMap"))
         self.node.loginfo("Requesting the map...")
         while self._map is None and not self.node.is_shutdown():
@@ -230,7 +230,7 @@ class Amcl:
         return {}
 
     def _initial_pose(self, message: Any) -> None:
-        """Restart around a given pose, moved by the odometry since the message's stamp."""
+        """Restart around a given pose, moved by the robot's odometry since the message's stamp."""
         p, frame = self.parameters, message.header.frame_id
         if not frame:
             self.node.logwarn("Received initial pose with empty frame_id.  You should always supply a frame_id.")
@@ -253,7 +253,7 @@ class Amcl:
             self.localizer.force = True
 
     def _motion_since(self, stamp: Time) -> Pose:
-        """Return the robot's motion since a time, from its odometry."""
+        """Return the robot's motion since a time from its odometry, as a pose in its old frame; zero if unknown."""
         p = self.parameters
         if stamp.to_nsec() == 0:
             return 0.0, 0.0, 0.0
@@ -328,7 +328,7 @@ class Amcl:
             )
 
     def _laser(self, frame: str) -> tuple[Pose, bool]:
-        """Return the laser's pose on the robot, and True if it is mounted upside down."""
+        """Return the laser's pose in the robot's frame, and whether it is mounted upside down."""
         if frame not in self._lasers:
             found = self.buffer.lookup_transform(self.parameters.base_frame_id, frame, Time(0), TRANSFORM_TIMEOUT)
             q = found.transform.rotation
@@ -417,7 +417,7 @@ class Amcl:
 
 
 def cloud(particles: NDArray[np.float64], frame: str, stamp: Time) -> Any:
-    """Return particles (n, 3) as a `geometry_msgs/PoseArray`."""
+    """Return particles (n, 3) in `frame` as a `geometry_msgs/PoseArray`."""
     message = message_class("geometry_msgs/PoseArray")()
     message.header.frame_id, message.header.stamp = frame, stamp
     pose = message_class("geometry_msgs/Pose")

@@ -16,7 +16,7 @@ LASERS = ("beam", "likelihood_field", "likelihood_field_prob")
 
 @dataclass(frozen=True)
 class AmclConfig(Parameters):
-    """Private parameters that can change at run time."""
+    """The private parameters of amcl that can change at run time."""
 
     dynamic = True
 
@@ -110,7 +110,7 @@ class AmclConfig(Parameters):
 
 @dataclass(frozen=True)
 class AmclParameters(AmclConfig):
-    """All private parameters."""
+    """All private parameters of amcl."""
 
     allowed = ("bag_scan_period", "tf_prefix")
 

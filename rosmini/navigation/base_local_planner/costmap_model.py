@@ -32,7 +32,7 @@ def footprint_cost(grid: Costmap2D, pose: Pose, footprint: ArrayLike) -> int:
 
 
 def line_cells(x: int, y: int, end_x: int, end_y: int) -> list[tuple[int, int]]:
-    """Return the cells of a line, including both ends, as the kernel visits them."""
+    """Return the cells (mx, my) on a line between two cells, including both, as the kernel visits them."""
     dx, dy = abs(end_x - x), abs(end_y - y)
     step_x, step_y = (1 if end_x >= x else -1), (1 if end_y >= y else -1)
     steps, gain, cells = max(dx, dy), min(dx, dy), []

@@ -42,7 +42,10 @@ class Oscillation:
         return np.where(forbidden, OSCILLATING, 0.0)
 
     def update(self, pose: Pose, command: Floats, min_vel_trans: float) -> None:
-        """Record the command that was chosen at `pose`."""
+        """Record the command (3) that was chosen at `pose`; allow all velocities if the robot has moved far enough.
+
+        Sideways velocities and turns only count while the speed ahead is at most `min_vel_trans` [m/s].
+        """
         if self._record(command, min_vel_trans):
             self.reset_pose = pose
         if any(self.allowed):
@@ -68,7 +71,7 @@ class Oscillation:
         return turned
 
     def reset(self) -> None:
-        """Allow all velocities."""
+        """Allow all velocities, and forget the last signs."""
         self.last, self.allowed = [0, 0, 0], [0, 0, 0]
 
 
@@ -78,7 +81,7 @@ def twirling(commands: Floats) -> Floats:
 
 
 def combined_scores(raw: Floats, scales: Floats) -> tuple[Floats, Ints]:
-    """Combine the critics' raw scores (n, k): return costs (n) and the index of the rejecting critic (n), or -1.
+    """Return the costs (n) for raw scores (n, k) of k critics, and the index (n) of the critic that rejects, or -1.
 
     Critics are applied in order, skipping those with scale 0 (`SimpleScoredSamplingPlanner::scoreTrajectory`). The cost
     of a rejected trajectory is the score of its critic.

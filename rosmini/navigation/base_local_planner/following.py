@@ -29,7 +29,7 @@ Floats = NDArray[np.float64]
 
 
 class Following:
-    """The plan being followed, and its part near the local costmap."""
+    """The plan being followed, and the part of it that is near the local costmap."""
 
     def __init__(self, buffer: Buffer, costmap: Any) -> None:
         self.buffer, self.costmap = buffer, costmap
@@ -48,7 +48,10 @@ class Following:
         self.poses = np.column_stack([made[:, :2], np.arctan2(made[:, 2], made[:, 3])])
 
     def goal(self) -> Pose:
-        """Return the end of the plan in the costmap's frame. Raises `ControlFailure` and `TransformMissing`."""
+        """Return the end of the plan in the costmap's frame.
+
+        Raises `ControlFailure` without a plan, and `TransformMissing` if the plan's frame cannot be transformed.
+        """
         if not len(self.poses):
             raise ControlFailure("Received plan with zero length: there is no goal to drive to")
         x, y, theta = self.poses[-1].tolist()
@@ -57,7 +60,7 @@ class Following:
     def local(self, robot: Pose, *, prune: bool) -> Floats:
         """Return the part (n, 3) of the plan within the costmap's reach, in its frame; `prune` drops passed poses.
 
-        Raises `ControlFailure` if no pose is within reach, and `TransformMissing`.
+        Raises `ControlFailure` if no pose is within reach, and `TransformMissing` as `goal`.
         """
         if not len(self.poses):
             raise ControlFailure("Received plan with zero length: the local planner has nothing to follow")
@@ -102,7 +105,7 @@ class Publications:
         self.cost_cloud = node.publisher(f"~{name}/cost_cloud", cloud, queue_size=1)
 
     def path(self, publisher: Any, poses: Floats) -> None:
-        """Publish poses (n, 3); as in ROS, an empty plan is not published."""
+        """Publish poses (n, 3) as a `nav_msgs/Path`; as in ROS, an empty plan is not published."""
         if not len(poses) or not publisher.num_connections():
             return
         now = self.node.now()
@@ -112,7 +115,7 @@ class Publications:
         publisher.publish(message)
 
     def costs(self, grid: Any, path: MapGrid, goal: MapGrid, scales: tuple[float, float, float]) -> None:
-        """Publish the distances of each cell to path and goal, its cost, and their weighted sum.
+        """Publish a cloud with each cell's distances to path and goal, its cost, and their sum weighted by `scales`.
 
         Cells in obstacles and unreachable cells are omitted.
         """
@@ -129,7 +132,7 @@ class Publications:
         self._cloud(self.cost_cloud, names, np.column_stack([x, y, np.zeros(len(x)), *parts, total]))
 
     def trajectories(self, publisher: Any, samples: Samples) -> None:
-        """Publish the points and costs of all trajectories that were not rejected."""
+        """Publish a cloud with the points and costs of all trajectories that were not rejected."""
         if not publisher.num_connections():
             return
         rows = [
@@ -171,7 +174,10 @@ class OdometryHelper:
 
 
 def sim_period(node: Node, label: str) -> float:
-    """Return the time between two commands [s], from `controller_frequency` here or in a parent namespace."""
+    """Return the time between two commands [s], from `controller_frequency` in a planner's or a parent namespace.
+
+    `label` is the planner's namespace, with a slash at the end. Raises `ParameterError` if it is not a number.
+    """
     for name in (label + "controller_frequency", "~controller_frequency"):
         if node.has_param(name):
             break
@@ -188,7 +194,7 @@ def sim_period(node: Node, label: str) -> float:
 
 
 def rename(node: Node, label: str, old: str, new: str) -> None:
-    """Copy an old parameter to its new name, with ROS's warning, unless the new one is set."""
+    """Copy the parameter `label` + `old` to its new name, with ROS's warning, unless the new one is set."""
     if not node.has_param(label + old):
         return
     if not node.has_param(label + new):

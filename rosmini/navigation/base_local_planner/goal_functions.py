@@ -52,7 +52,7 @@ def turn_to_goal(pose: Pose, goal: Pose) -> float:
 
 
 def is_stopped(velocity: Floats, theta_stopped_vel: float, trans_stopped_vel: float) -> bool:
-    """Return True if a robot with this velocity (3) counts as stopped."""
+    """Return whether a velocity (3) counts as stopped: within the limits for turns [rad/s] and for each axis [m/s]."""
     return bool(
         abs(velocity[2]) <= theta_stopped_vel
         and abs(velocity[0]) <= trans_stopped_vel

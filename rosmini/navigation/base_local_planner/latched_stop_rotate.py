@@ -1,4 +1,4 @@
-"""Commands at the goal: stop, then turn to its heading. `LatchedStopRotateController` without its node."""
+"""Commands at the goal: stop, then turn to its heading. The algorithm of `LatchedStopRotateController`."""
 
 from __future__ import annotations
 
@@ -34,14 +34,14 @@ class LatchedStopRotate:
         self.reached = False
 
     def is_position_reached(self, pose: Pose, goal: Pose, limits: LocalPlannerLimits) -> bool:
-        """True if the robot is within tolerance of the goal's position or, with `latch`, has been."""
+        """Return whether the robot is within tolerance of the goal's position or, with `latch`, has been."""
         if (self.latch and self.reached) or distance_to_goal(pose, goal) <= limits.xy_goal_tolerance:
             self.reached = True
             return True
         return False
 
     def is_goal_reached(self, pose: Pose, velocity: Floats, goal: Pose, limits: LocalPlannerLimits) -> bool:
-        """True if the robot has reached position and heading and has stopped."""
+        """Return whether the robot has reached position and heading and has stopped."""
         if not ((self.latch and self.reached) or distance_to_goal(pose, goal) <= limits.xy_goal_tolerance):
             return False
         self.reached = self.reached or self.latch
@@ -76,7 +76,10 @@ def decelerated(velocity: Floats, accelerations: Floats, period: float) -> Float
 
 
 def reachable_turn_speed(speed: float, turn: float, now: float, acceleration: float, period: float) -> float:
-    """Return a turning speed within reach in one period from which the robot can stop at the end of `turn` [rad]."""
+    """Return the turning speed nearest to `speed` within reach in one period, limited so that the robot can still stop.
+
+    `turn` [rad] is the rotation left, at the end of which the robot must stop; `now` [rad/s] is its turning speed.
+    """
     speed = min(max(abs(speed), abs(now) - acceleration * period), abs(now) + acceleration * period)
     return min(math.sqrt(2 * acceleration * abs(turn)), abs(speed))
 

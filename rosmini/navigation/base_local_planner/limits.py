@@ -12,7 +12,7 @@ from rosmini.core.parameters import Parameters, parameter
 
 @dataclass(frozen=True)
 class LocalPlannerLimits(Parameters):
-    """The limits of `base_local_planner/local_planner_limits`, all dynamic."""
+    """The parameters of `base_local_planner/local_planner_limits`, all of which can change at run time."""
 
     max_vel_trans: float = parameter(0.55, "the highest speed", unit="m/s", minimum=0.0)
     min_vel_trans: float = parameter(0.1, "the minimum translational speed", unit="m/s", minimum=0.0)

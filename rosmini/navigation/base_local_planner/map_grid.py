@@ -76,7 +76,7 @@ class MapGrid:
 
 
 def densified(points: Floats, resolution: float) -> Floats:
-    """Return a plan (n, 2 or more columns) with points inserted so that no gap exceeds `resolution`."""
+    """Return a plan (n, 2 or more columns) with points inserted so that no gap exceeds `resolution` [m]."""
     if len(points) < 2:
         return points
     steps = np.diff(points, axis=0)

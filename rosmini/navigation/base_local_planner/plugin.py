@@ -59,7 +59,7 @@ class TrajectoryPlannerSettings(TrajectoryPlannerParameters):
 
 
 class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/TrajectoryPlannerROS"):
-    """Follows a plan by simulating trajectories; `samples` holds those of the last cycle."""
+    """The local planner of `base_local_planner` as a plugin: follows a plan by simulating trajectories."""
 
     samples: Samples | None = None
     """The trajectories of the last cycle, or None before the first."""
@@ -102,17 +102,21 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
     # -- the interface -------------------------------------------------------------------------------------------
 
     def set_plan(self, plan: Sequence[Any]) -> None:
-        """Follow this plan."""
+        """Follow this plan, a sequence of `geometry_msgs/PoseStamped`, from now on."""
         self.following.set_plan(plan)
         self.latch.reset()
         self._reached = False
 
     def is_goal_reached(self) -> bool:
-        """True if the robot has reached the end of the plan and its heading."""
+        """Return whether the robot has reached the end of the plan and its heading."""
         return self._reached
 
     def compute_velocity_commands(self) -> Any:
-        """Return the next command, which follows the plan or, at its end, stops and turns to the heading."""
+        """Return the next `geometry_msgs/Twist`: follow the plan or, at its end, stop and turn to the heading.
+
+        Raises `NoValidCommand` if all trajectories are rejected, `ControlFailure` if the plan is out of reach or the
+        final rotation would collide, and `TransformMissing` if a transform is missing.
+        """
         pose = planar_pose(self.costmap.robot_pose())
         plan = self.following.local(pose, prune=self._settings.prune_plan)
         goal = (float(plan[-1, 0]), float(plan[-1, 1]), float(plan[-1, 2]))

@@ -54,9 +54,9 @@ def footprint_cost(
 ) -> int:
     """Return the largest cost under a footprint's outline (n, 2) [m], scaled by `scale`, at a pose.
 
-    `costs` (height width) are the costmap's costs, row by row.
-    Returns `HIT`, `UNSEEN` or `OUTSIDE` at the first such cell, edge by edge. With fewer than three vertices the robot
-    is round: only the cell of its centre counts, and `INSCRIBED` is a hit.
+    `costs` (height * width) are the costmap's costs, row by row. Returns `HIT`, `UNSEEN` or `OUTSIDE` at the first such
+    cell, edge by edge. With fewer than three vertices the robot is round: only the cell of its centre counts, and
+    `INSCRIBED` is a hit.
     """
     return outline_cost(
         costs,
@@ -86,7 +86,7 @@ def outline_cost(
     sin: float,
     footprint: Floats,
 ) -> int:
-    """Like `footprint_cost`, for a robot at (x, y) rotated and scaled by `cos` and `sin`."""
+    """Return the same as `footprint_cost`, for an outline rotated and scaled by `cos` and `sin` and moved to (x, y)."""
     if x < origin_x or y < origin_y:
         return OUTSIDE
     mx = int((x - origin_x) / resolution)
@@ -243,7 +243,10 @@ def approached(value: float, target: float, most: float) -> float:
 def looked_up_distance(
     distances: Distances, cell: int, strict: bool, last: float, n: int, critic: int, i: int, where: Ints
 ) -> float:
-    """Return a cell's distance, or `last` if that is negative; record the first negative point in `where`."""
+    """Return the distance of a cell, or `OFF_GRID`; if `strict`, also `IN_OBSTACLE` or `UNREACHABLE`.
+
+    If the score `last` of the previous point is negative, return that. Record the first negative point in `where`.
+    """
     if last < 0:
         return last
     value = OFF_GRID

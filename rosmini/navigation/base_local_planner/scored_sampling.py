@@ -28,7 +28,7 @@ MAX_POINTS = 20_000_000
 
 @dataclass(frozen=True)
 class Rollouts:
-    """The results of the kernel: see `rosmini.navigation.base_local_planner.rollout.rollout`."""
+    """The results of the kernel `rosmini.navigation.base_local_planner.rollout.rollout`, which describes the arrays."""
 
     points: Floats
     lengths: Ints
@@ -144,7 +144,10 @@ class Sampling:
         return np.where(slow | fast, 0, steps).astype(np.int64)
 
     def starts(self, velocities: Floats, velocity: Floats, steps: Ints, limits: LocalPlannerLimits) -> Floats:
-        """Return the velocities (n, 3) of the first cycle, which are commanded if they are chosen."""
+        """Return for each of the sampled `velocities` (n, 3) the velocity at its start, which is the command.
+
+        Without `use_dwa`, it differs from the current `velocity` (3) by at most the acceleration in one step.
+        """
         if self.use_dwa:
             return velocities
         gain = limits.accelerations * (self.sim_time / np.maximum(steps, 1))[:, None]
@@ -173,7 +176,10 @@ def velocity_samples(low: float, high: float, count: int) -> NDArray[np.float64]
 def footprint_scales(
     velocities: Floats, max_vel_trans: float, max_scaling_factor: float, scaling_speed: float
 ) -> Floats:
-    """Return the footprint's scale for each velocity (n, 3): it grows above `scaling_speed`, up to 1 + the factor."""
+    """Return the footprint's scale for each velocity (n, 3): above `scaling_speed` [m/s], it grows from 1.
+
+    At `max_vel_trans` [m/s] it is 1 + `max_scaling_factor`.
+    """
     speeds = np.hypot(velocities[:, 0], velocities[:, 1])
     fast = speeds > scaling_speed
     room = max_vel_trans - scaling_speed

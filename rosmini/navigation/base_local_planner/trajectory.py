@@ -47,7 +47,7 @@ class Samples:
     refused: int = 0
     """Number of velocities that were not simulated because they are too slow or too fast for the robot."""
     pose: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """The robot's pose."""
+    """The robot's pose in the costmap's frame."""
 
     def __len__(self) -> int:
         return len(self.totals)
@@ -120,12 +120,12 @@ class Samples:
         return int(np.argmin(np.abs(self.velocities - (x, y, theta)).sum(axis=1)))
 
     def show(self, **options: Any) -> Any:
-        """Draw the trajectories in a stepped player: see `rosmini.viz.stepped_pictures.trajectory_steps`."""
+        """Return a picture of the trajectories, in steps: see `rosmini.viz.stepped_pictures.trajectory_steps`."""
         return show("trajectories", self, **options)
 
 
 def _shown(value: float | None) -> str:
-    """Format with two decimals; a small offset avoids ties, which machines may round differently."""
+    """Return a value with two decimals; a small offset avoids ties, which machines may round differently."""
     return f"{(value or 0.0) + 3.7e-7:.2f}".replace("-0.00", "0.00")
 
 
@@ -147,7 +147,7 @@ REASONS: dict[tuple[str, int], str] = {
 
 
 def concatenated(first: Samples, *others: Samples, best: int | None = None) -> Samples:
-    """Concatenate samples; `best` is the index of the chosen one in the result."""
+    """Return all samples in one object; `best` is the index of the chosen one in the result."""
     parts = [first, *others]
     most = max(part.points.shape[1] for part in parts)
     points = [np.pad(part.points, ((0, 0), (0, most - part.points.shape[1]), (0, 0))) for part in parts]

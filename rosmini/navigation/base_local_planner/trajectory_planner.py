@@ -117,7 +117,7 @@ class Turning:
 
 
 class TrajectoryPlanner:
-    """Chooses velocities; call `reconfigure` to change the parameters between two cycles."""
+    """Chooses the velocity of each control cycle; call `reconfigure` to change the parameters between two cycles."""
 
     def __init__(
         self, parameters: TrajectoryPlannerParameters, sim_period: float = 0.05, *, meter_scoring: bool = False
@@ -160,9 +160,10 @@ class TrajectoryPlanner:
     # -- one cycle -----------------------------------------------------------------------------------------------
 
     def find_best(self, grid: Costmap2D, pose: Pose, velocity: Floats) -> Samples:
-        """Sample around `velocity` (3), score, choose the best, and record its direction: `createTrajectories`.
+        """Return scored samples around `velocity` (3), with the best one chosen, and record its direction.
 
-        `best` is None only if backing up is impossible as well, because no path leads to the plan.
+        This is `createTrajectories` of ROS. `best` is None only if backing up is impossible as well, because no path
+        leads to the plan.
         """
         low, high = self.window(pose, velocity)
         turns = evenly(low[1], high[1], self.parameters.vtheta_samples)
@@ -194,7 +195,7 @@ class TrajectoryPlanner:
         return replace(samples, best=best)
 
     def driven(self, grid: Costmap2D, pose: Pose, velocity: Floats, velocities: Floats) -> Samples:
-        """Simulate and score given velocities (n, 3), starting at `velocity` (3); none is chosen or recorded."""
+        """Return scored samples of given velocities (n, 3), starting at `velocity` (3); none is chosen or recorded."""
         return self._scored(grid, pose, velocity, velocities)
 
     def window(self, pose: Pose, velocity: Floats) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -320,7 +321,10 @@ def _cheapest(samples: Samples, count: int) -> int | None:
 
 
 def _totals(raw: Floats, where: Ints, scales: Floats) -> tuple[Floats, Ints]:
-    """Return costs and rejecting critics: that of the earliest rejected point; at the same point, the obstacle's."""
+    """Return the costs (n) and the rejecting critics (n), or -1.
+
+    Of several critics, the one with the earliest rejected point counts, and at the same point the obstacle critic.
+    """
     first = np.where(raw < 0, where, np.iinfo(np.int64).max)
     critic = np.argmin(first, axis=1)
     rejected = (raw < 0).any(axis=1)

@@ -84,7 +84,7 @@ class Costmap2D:
 
     @classmethod
     def of(cls, costs: ArrayLike, resolution: float = 1.0, origin: tuple[float, float] = (0.0, 0.0)) -> Costmap2D:
-        """Create a costmap from a copy of these costs (h, w)."""
+        """Return a costmap with a copy of these costs (h, w). Raises `CostmapError` for an array of another shape."""
         array = np.array(costs, dtype=np.uint8, order="C")
         if array.ndim != 2:
             raise CostmapError(
@@ -97,7 +97,7 @@ class Costmap2D:
     def resize(self, width: int, height: int, resolution: float, origin: tuple[float, float]) -> None:
         """Change the size [cells], resolution and origin [m], and set all costs to the default.
 
-        Raises `CostmapError` like the constructor.
+        Raises `CostmapError` as the constructor does.
         """
         made = Costmap2D(width, height, resolution, origin, self.default)
         self.costs, self.resolution, self.origin = made.costs, made.resolution, made.origin

@@ -273,7 +273,7 @@ class Costmap2DROS:
         return pose_stamped(self.global_frame, Time.from_nsec(stamp_ns), pose)
 
     def to_global(self, pose: Any) -> Any:
-        """Transform a `PoseStamped` into the global frame with the latest transform. Raises `TransformMissing`."""
+        """Return a `PoseStamped` in the global frame, by the latest transform. Raises `TransformMissing` if none."""
         frame = pose.header.frame_id.lstrip("/")
         if frame == self.global_frame:
             return pose
@@ -395,7 +395,7 @@ class Costmap2DROS:
             self._publisher.publish()
 
     def _robot(self) -> tuple[Pose, int]:
-        """Return the robot's pose in the global frame and the time of that pose [ns]."""
+        """Return the robot's pose in the global frame and the time of that pose [ns]. Raises as `robot_pose`."""
         now = self.node.clock.now_ns()
         tree = self.buffer.tree
         try:
@@ -462,7 +462,7 @@ def migrate_sizes(node: Node, namespace: str) -> None:
 def footprint_of_parameters(node: Node, namespace: str) -> NDArray[np.float64]:
     """Return the footprint from `footprint` or `robot_radius`, here or in a parent namespace; (0, 2) if neither is set.
 
-    The value is copied into this namespace, where dynamic_reconfigure reads it. Raises `ParameterError`.
+    The value is copied into this namespace, where dynamic_reconfigure reads it. Raises `ParameterError` if invalid.
     """
     found = name_above(node, namespace, "footprint")
     if found is not None:

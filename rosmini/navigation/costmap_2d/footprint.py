@@ -28,7 +28,7 @@ def footprint_from_radius(radius: float) -> Footprint:
 
 
 def footprint_from_list(points: Any, name: str) -> Footprint:
-    """Convert a list of pairs of numbers to a footprint; `name` is the parameter's name in error messages.
+    """Return a footprint made from a list of pairs of numbers; `name` is the parameter's name in error messages.
 
     Raises `ParameterError` for anything else, for fewer than three points and for numbers that are not finite.
     """
@@ -53,7 +53,7 @@ def footprint_from_list(points: Any, name: str) -> Footprint:
 
 
 def _is_finite(value: Any) -> bool:
-    """True if the value is a finite number."""
+    """Return whether a value is a finite number."""
     try:
         return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
     except OverflowError:  # an integer too large for a float
@@ -61,9 +61,10 @@ def _is_finite(value: Any) -> bool:
 
 
 def footprint_from_text(text: str, name: str) -> Footprint:
-    """Parse a footprint parameter such as `[[0.1, 0.1], [0.1, -0.1], [-0.1, -0.1]]`, as costmap_2d does.
+    """Return the footprint in a text such as `[[0.1, 0.1], [0.1, -0.1], [-0.1, -0.1]]`, parsed as by costmap_2d.
 
-    Commas and spaces are both separators, and `.5`, `1.` and `+1` are valid numbers. Raises `ParameterError`.
+    Commas and spaces are both separators, and `.5`, `1.` and `+1` are valid numbers. Raises `ParameterError`, which
+    contains the parameter's `name`, for a text of another form.
     """
     points: list[list[float]] = []
     point: list[float] = []
@@ -98,12 +99,12 @@ def _parse_error(text: str, name: str, problem: str) -> ParameterError:
 
 
 def footprint_text(footprint: Footprint) -> str:
-    """Format a footprint as a parameter value."""
+    """Return a footprint as the text of a parameter."""
     return "[" + ",".join(f"[{x:g},{y:g}]" for x, y in footprint) + "]"
 
 
 def padded(footprint: Footprint, padding: float) -> Footprint:
-    """Move every vertex away from both axes by `padding` [m]; a coordinate of 0 stays 0."""
+    """Return a footprint with every vertex moved away from both axes by `padding` [m]; a coordinate of 0 stays 0."""
     grown: Footprint = footprint + np.sign(footprint) * padding
     return grown
 

@@ -28,7 +28,7 @@ BATCH_CELLS = 300_000
 
 
 def cell_distance(distance: float, resolution: float) -> int:
-    """Convert a distance [m] to cells, rounded up."""
+    """Return a distance [m] in cells, rounded up."""
     return max(0, math.ceil(distance / resolution))
 
 
@@ -42,7 +42,7 @@ def cost_at(distance: float, inscribed_radius: float, cost_scaling_factor: float
 
 
 def cost_table(radius: int, resolution: float, inscribed_radius: float, cost_scaling_factor: float) -> Costs:
-    """Return the cost by squared distance [cells] up to `radius`, followed by a 0 for all greater distances."""
+    """Return the cost for each squared distance [cells] up to that of `radius`, then a 0 for all greater distances."""
     costs = [
         cost_at(math.sqrt(squared) * resolution, inscribed_radius, cost_scaling_factor)
         for squared in range(radius * radius + 1)
@@ -103,7 +103,7 @@ def inflate(costs: Costs, window: Window, radius: int, table: Costs, *, inflate_
 
 
 def _inflate_band(costs: Costs, window: Window, radius: int, table: Costs, inflate_unknown: bool) -> None:
-    """Inflate a band of rows that fits into the cache. No cell becomes lethal, so bands can follow one another."""
+    """Inflate a band of rows that fits into the cache. No cell becomes lethal, so bands do not affect each other."""
     height, width = costs.shape
     x0, y0 = max(window.x0 - radius, 0), max(window.y0 - radius, 0)
     lethal = costs[y0 : min(window.yn + radius, height), x0 : min(window.xn + radius, width)] == LETHAL_OBSTACLE

@@ -48,11 +48,11 @@ class Window(NamedTuple):
         return self.xn <= self.x0 or self.yn <= self.y0
 
     def has(self, mx: int, my: int) -> bool:
-        """True if the window contains this cell."""
+        """Return whether the window contains this cell."""
         return self.x0 <= mx < self.xn and self.y0 <= my < self.yn
 
     def fits(self, grid: Costmap2D) -> bool:
-        """True if the window lies completely inside a grid."""
+        """Return whether the window lies completely inside a grid."""
         return self.x0 >= 0 and self.y0 >= 0 and self.xn <= grid.width and self.yn <= grid.height
 
     def united(self, other: Window | None) -> Window:
@@ -99,7 +99,7 @@ class Bounds:
         self.touch(FAR, FAR)
 
     def contains(self, other: Bounds) -> bool:
-        """True if another rectangle lies completely inside these bounds."""
+        """Return whether other bounds are empty or completely inside these."""
         return other.is_empty or (
             self.min_x <= other.min_x
             and self.min_y <= other.min_y
@@ -115,7 +115,7 @@ class Bounds:
 
 
 class Layer(Plugin, ABC):
-    """The base class of all layers."""
+    """The base class of all layers. Subclasses define `update_bounds` and `update_costs`."""
 
     name: str
     """The layer's name in the costmap's `plugins`."""

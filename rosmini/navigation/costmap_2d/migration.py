@@ -1,4 +1,4 @@
-"""Converts parameter files from before the introduction of layers (ROS Hydro).
+"""Conversion of parameters from before the introduction of layers (ROS Hydro).
 
 The files of ROBOTIS and navigation_stage have this form: `static_map`, `map_type` and flat parameters, no `plugins`.
 """
@@ -28,7 +28,10 @@ OLD = ("static_map", "map_type")
 
 
 def migrate(node: Node, namespace: str, name: str) -> None:
-    """Move old parameters in `namespace` (`~global_costmap/`) to layers; if `plugins` is set, warn of unused ones."""
+    """Move old parameters in `namespace` (`~global_costmap/`) to layers; if `plugins` is set, only warn about them.
+
+    `name` is the costmap's name in warnings.
+    """
     if node.has_param(namespace + "plugins"):
         for old in OLD:
             if node.has_param(namespace + old):
@@ -57,12 +60,12 @@ def migrate(node: Node, namespace: str, name: str) -> None:
 
 
 def inherit(node: Node, namespace: str, layer: str, kind: str) -> None:
-    """Copy the parameters that a layer of this type inherits from the costmap."""
+    """Copy the parameters that a layer of the type `kind` inherits from the costmap's `namespace`."""
     move(node, namespace, layer, INHERITED.get(kind.replace("/", "::"), ()), delete=False)
 
 
 def move(node: Node, namespace: str, layer: str, names: tuple[str, ...], *, delete: bool = True) -> None:
-    """Move or copy those of the named parameters that are set into the namespace of a layer."""
+    """Move (or without `delete` copy) those of the named parameters that are set into the namespace of a layer."""
     for name in names:
         if node.has_param(namespace + name):
             node.set_param(f"{namespace}{layer}/{name}", node.get_param(namespace + name))

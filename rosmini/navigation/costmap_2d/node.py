@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class Costmap2DNode:
-    """A costmap without a planner."""
+    """The node `costmap_2d_node`: a costmap without a planner."""
 
     def __init__(self, node: Node) -> None:
         buffer = Buffer(node)

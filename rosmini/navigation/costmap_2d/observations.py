@@ -44,14 +44,14 @@ class ObservationBuffer:
     ) -> None:
         self.persistence_ns = persistence_ns
         self.expected_ns = expected_ns
-        """Expected period between messages; 0 to expect none."""
+        """Expected period between messages [ns]; 0 to expect none."""
         self.min_height, self.max_height = min_height, max_height
         self.updated_ns = 0
-        """Arrival time of the latest observation."""
+        """Arrival time of the latest observation [ns]."""
         self._kept: deque[Observation] = deque()
 
     def add(self, observation: Observation, now_ns: int) -> None:
-        """Add an observation without the points below `min_height` or above `max_height`."""
+        """Add an observation that arrived at `now_ns`, without its points below `min_height` or above `max_height`."""
         z = observation.points[:, 2]
         with np.errstate(invalid="ignore"):
             wanted = (z >= self.min_height) & (z <= self.max_height)
@@ -119,7 +119,10 @@ def cloud_points(cloud: Any) -> Floats:
 
 
 def cloud2_points(cloud: Any) -> Floats:
-    """Return the finite points of a `sensor_msgs/PointCloud2`. Raises `TransformException` without float x, y, z."""
+    """Return the finite points (n, 3) [m] of a `sensor_msgs/PointCloud2`.
+
+    Raises `TransformException` if it lacks floating-point fields x, y and z.
+    """
     from rosmini.core.tf.messages import cloud_view
 
     columns = cloud_view(cloud, bytearray(cloud.data))

@@ -78,7 +78,7 @@ class ObstacleLayer(CostmapLayer, plugin="costmap_2d::ObstacleLayer"):
         self.activate()
 
     def update_bounds(self, robot: Pose, bounds: Bounds) -> None:
-        """Process the latest observations of all sources."""
+        """Clear and mark cells by the stored observations of all sources, and extend `bounds` to these cells."""
         if self.layered.is_rolling:
             self.roll(robot)
         self.use_extra_bounds(bounds)
@@ -104,7 +104,7 @@ class ObstacleLayer(CostmapLayer, plugin="costmap_2d::ObstacleLayer"):
         return self.grid.move_origin(robot[0] - width / 2, robot[1] - height / 2)
 
     def clear(self, observation: Observation, bounds: Bounds) -> None:
-        """Clear the cells between the sensor and the observed points."""
+        """Clear the cells between the sensor and the observed points, and extend `bounds` to them."""
         grid = self.grid
         ox, oy, _ = observation.origin
         if grid.world_to_map(ox, oy) is None:
@@ -124,7 +124,7 @@ class ObstacleLayer(CostmapLayer, plugin="costmap_2d::ObstacleLayer"):
         )
 
     def mark(self, observation: Observation, bounds: Bounds) -> None:
-        """Mark the cells of the observed points as obstacles."""
+        """Mark the cells of the observed points as obstacles, and extend `bounds` to them."""
         points = self._near(observation)
         cells = np.floor((points[:, :2] - self.grid.origin) / self.grid.resolution).astype(np.int64)
         inside = (cells >= 0).all(axis=1) & (cells < (self.grid.width, self.grid.height)).all(axis=1)
@@ -134,7 +134,7 @@ class ObstacleLayer(CostmapLayer, plugin="costmap_2d::ObstacleLayer"):
             bounds.touch_cells(self.grid, Window(mx.min(), my.min(), mx.max() + 1, my.max() + 1))
 
     def _near(self, observation: Observation) -> Any:
-        """Return the points that are near enough to the sensor and low enough to count as obstacles."""
+        """Return the points (n, 3) that are near enough to the sensor and low enough to count as obstacles."""
         points = observation.points
         away = points - observation.origin
         near = (away * away).sum(axis=1) < observation.obstacle_range**2

@@ -69,7 +69,7 @@ class CostmapParameters(CostmapConfig):
     published_footprint_topic: str = parameter("footprint", "the topic on which the robot's footprint is published")
 
     def others(self) -> Iterable[str]:
-        """The namespaces of the layers."""
+        """Return the names of the layers, which are namespaces of their parameters."""
         return [plugin.name for plugin in self.plugins]
 
 
@@ -139,7 +139,7 @@ class ObstacleStatics(Parameters):
     raytrace_range: float = parameter(3.0, "for sources that set none", unit="m")
 
     def others(self) -> Iterable[str]:
-        """The namespaces of the sources."""
+        """Return the names of the sources, which are namespaces of their parameters."""
         return self.observation_sources.split()
 
 
@@ -206,6 +206,9 @@ def name_above(node: Node, namespace: str, name: str) -> str | None:
 
 
 def parameter_above(node: Node, namespace: str, name: str, kind: type, default: Any) -> Any:
-    """Return the value of a parameter that `name_above` finds, or `default`. Raises `ParameterError`."""
+    """Return the value of a parameter that `name_above` finds, or `default`.
+
+    Raises `ParameterError` if the value does not have the type `kind`.
+    """
     found = name_above(node, namespace, name)
     return default if found is None else node.get_param(found, expect=kind)

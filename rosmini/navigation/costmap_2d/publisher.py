@@ -1,4 +1,4 @@
-"""Publishes a costmap: the whole grid or only the changes (http://wiki.ros.org/costmap_2d#Published_Topics)."""
+"""Publication of a costmap: the whole grid or only the changes (http://wiki.ros.org/costmap_2d#Published_Topics)."""
 
 from __future__ import annotations
 

@@ -51,7 +51,7 @@ class VoxelLayer(ObstacleLayer, plugin="costmap_2d::VoxelLayer"):
         return result
 
     def match_size(self) -> None:
-        """Start with unknown columns."""
+        """Adopt the size of the master grid; all columns become unknown."""
         super().match_size()
         self.columns = np.full(self.costs.shape, UNKNOWN, dtype=np.int64)
 
@@ -61,14 +61,14 @@ class VoxelLayer(ObstacleLayer, plugin="costmap_2d::VoxelLayer"):
         super().reset()
 
     def roll(self, robot: Pose) -> tuple[int, int]:
-        """Move the costs and columns with the robot."""
+        """Move the costs and columns with the robot; return the number of cells moved, (columns, rows)."""
         dx, dy = super().roll(robot)
         if (dx, dy) != (0, 0):
             self.columns = shifted(self.columns, dx, dy, UNKNOWN)
         return dx, dy
 
     def clear(self, observation: Observation, bounds: Bounds) -> None:
-        """Clear the voxels between the sensor and the observed points."""
+        """Clear the voxels between the sensor and the observed points, and extend `bounds` to their columns."""
         grid, (ox, oy, oz) = self.grid, observation.origin
         top = self.origin_z + self.size_z * self.z_resolution
         if grid.world_to_map(ox, oy) is None or not self.origin_z <= oz < top:

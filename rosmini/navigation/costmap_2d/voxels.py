@@ -36,12 +36,12 @@ def marked_count(columns: Columns) -> NDArray[np.uint8]:
 
 
 def mark_voxels(columns: Columns, mx: Any, my: Any, mz: Any) -> None:
-    """Mark voxels (n) in place."""
+    """Mark the voxels with columns `mx`, rows `my` and heights `mz` (n each) in `columns` (h, w), in place."""
     np.bitwise_or.at(columns, (my, mx), (1 << mz) | (1 << (mz + BITS)))
 
 
 def bit_count(number: int) -> int:
-    """Return the number of set bits."""
+    """Return the number of set bits of an integer of at least 0."""
     count = 0
     while number:
         number &= number - 1
@@ -50,7 +50,10 @@ def bit_count(number: int) -> int:
 
 
 def ray_fraction(value: float, start: float, low: float, high: float, share: float) -> float:
-    """Return the fraction of a ray from `start` to `value` on one axis between `low` and `high`, up to `share`."""
+    """Return the fraction of a ray from `start` to `value` that is between `low` and `high` on one axis.
+
+    The result is at most `share`.
+    """
     if value < low:
         return min(share, (low - start) / (value - start))
     if value > high:

@@ -69,7 +69,7 @@ class DWAPlannerParameters(LocalPlannerLimits):
 
 
 class DWAPlanner:
-    """Chooses velocities; call `reconfigure` to change the parameters between two cycles."""
+    """Chooses the velocity of each control cycle; call `reconfigure` to change the parameters between two cycles."""
 
     def __init__(self, parameters: DWAPlannerParameters, sim_period: float = 0.05, cheat_factor: float = 1.0) -> None:
         self.sim_period = sim_period
@@ -111,13 +111,16 @@ class DWAPlanner:
         return len(cells) > 0
 
     def scales(self, resolution: float) -> Floats:
-        """Return the critics' weights (k); distances are in cells but weighed in metres."""
+        """Return the critics' weights (k); `resolution` [m] converts the weights per metre to weights per cell."""
         p = self.parameters
         path, goal = resolution * p.path_distance_bias, resolution * p.goal_distance_bias
         return np.array([1.0, p.occdist_scale, goal, path if self._nose else 0.0, path, goal, p.twirling_scale])
 
     def find_best(self, grid: Costmap2D, pose: Pose, velocity: Floats) -> Samples:
-        """Sample around `velocity` (3), score, choose the cheapest, and record it for the oscillation critic."""
+        """Return scored samples around `velocity` (3), with the cheapest one chosen.
+
+        The choice is recorded for the oscillation critic. `best` is None if all samples are rejected.
+        """
         p = self.parameters
         goal = (float(self.plan[-1, 0]), float(self.plan[-1, 1]), float(self.plan[-1, 2]))
         velocities = self.sampling.velocities(pose, velocity, goal, p)
@@ -129,11 +132,14 @@ class DWAPlanner:
         return samples
 
     def driven(self, grid: Costmap2D, pose: Pose, velocity: Floats, velocities: Floats) -> Samples:
-        """Simulate and score given velocities (n, 3), starting at `velocity` (3), without recording any."""
+        """Return scored samples of given velocities (n, 3), starting at `velocity` (3), without recording any."""
         return self._scored(grid, pose, velocity, velocities, self.sampling.steps(velocities, self.parameters), 0)
 
     def why_not(self, grid: Costmap2D, pose: Pose, velocity: Floats, command: Floats) -> str:
-        """Return why a critic rejects a command (3), or an empty text; going back is allowed (`checkTrajectory`)."""
+        """Return the reason why a critic rejects a command (3), or an empty text.
+
+        As in `checkTrajectory` of ROS, this resets the oscillation critic, so going back is allowed.
+        """
         self.oscillation.reset()
         return self.driven(grid, pose, velocity, command[None, :]).reason(0)
 

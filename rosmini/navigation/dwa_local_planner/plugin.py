@@ -50,7 +50,7 @@ class DWAPlannerSettings(DWAPlannerParameters):
 
 
 class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
-    """Follows a plan with the Dynamic Window Approach; `samples` holds the trajectories of the last cycle."""
+    """The local planner of `dwa_local_planner` as a plugin: follows a plan with the Dynamic Window Approach."""
 
     samples: Samples | None = None
     """The trajectories of the last cycle, or None before the first."""
@@ -91,14 +91,14 @@ class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
     # -- the interface -------------------------------------------------------------------------------------------
 
     def set_plan(self, plan: Sequence[Any]) -> None:
-        """Follow this plan."""
+        """Follow this plan, a sequence of `geometry_msgs/PoseStamped`, from now on."""
         self.latch.reset()
         self.node.loginfo("Got new plan")
         self.planner.oscillation.reset()
         self.following.set_plan(plan)
 
     def is_goal_reached(self) -> bool:
-        """True if the robot has reached the end of the plan and its heading, and has stopped."""
+        """Return whether the robot has reached the end of the plan and its heading, and has stopped."""
         pose = planar_pose(self.costmap.robot_pose())
         if not self.latch.is_goal_reached(pose, self.odometry.velocity, self.following.goal(), self.parameters):
             return False
@@ -106,7 +106,11 @@ class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
         return True
 
     def compute_velocity_commands(self) -> Any:
-        """Return the next command, which follows the plan or, at its end, stops and turns to the heading."""
+        """Return the next `geometry_msgs/Twist`: follow the plan or, at its end, stop and turn to the heading.
+
+        Raises `NoValidCommand` if all trajectories are rejected, `ControlFailure` if the plan is out of reach or the
+        final rotation would collide, and `TransformMissing` if a transform is missing.
+        """
         pose = planar_pose(self.costmap.robot_pose())
         plan = self.following.local(pose, prune=self.parameters.prune_plan)
         # The map grids are also needed at the goal, to check turns.

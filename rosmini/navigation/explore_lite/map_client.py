@@ -39,7 +39,10 @@ def costs_by_value() -> Costs:
 
 
 class MapClient:
-    """The latest map, in `grid`. Blocks until there is one, and until the robot's pose on it is known."""
+    """Receives a map and its updates into `grid`.
+
+    The constructor blocks until there is a map, and until the robot's pose on it is known.
+    """
 
     def __init__(self, node: Node, parameters: ExploreParameters) -> None:
         self.node = node

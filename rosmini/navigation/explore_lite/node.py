@@ -1,4 +1,4 @@
-"""`explore_lite/explore`: drives to the cheapest frontier until none is left, or all were given up.
+"""`explore_lite/explore`: drives to the cheapest frontier until none is left, or all have been given up.
 
 It subscribes to a map and its updates, sends goals to `move_base`, and shows frontiers on `~frontiers`: blue, or red if
 given up, with a green ball that is smaller for higher costs. Unlike in the original, a frontier that was given up is
@@ -34,7 +34,7 @@ BLUE, RED, GREEN = (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 
 @dataclass(frozen=True)
 class ExploreParameters(Parameters):
-    """The private parameters of the node."""
+    """The private parameters of `explore`."""
 
     robot_base_frame: str = parameter("base_link", "the robot's frame")
     costmap_topic: str = parameter("costmap", "the topic of a map or costmap")
@@ -113,7 +113,7 @@ class Explore:
         self._stop(is_finished=True)
 
     def _update_frontiers(self) -> bool:
-        """Find the frontiers; return False if that was not possible."""
+        """Find and publish the frontiers; return False if the robot's pose is unknown or outside the map."""
         try:
             x, y = self.map.robot()
             found = find_frontiers(self.map.grid, x, y)

@@ -14,7 +14,7 @@ def offset(delta_x: float, delta_y: float, delta_yaw: float) -> Rigid:
 
 
 def odom_in_map(base_in_map: Rigid, base_in_odom: Rigid) -> Rigid:
-    """Return the transform from map to odom that is consistent with both poses."""
+    """Return the pose of odom in the map that is consistent with both poses of the robot."""
     return compose(base_in_map, inverse(base_in_odom))
 
 

@@ -45,7 +45,7 @@ class FakeLocalizationParameters(Parameters):
 
 
 class FakeLocalization:
-    """Publishes the robot's true pose in the form of amcl."""
+    """The node `fake_localization`: publishes the robot's true pose on the topics of amcl."""
 
     def __init__(self, node: Node) -> None:
         self.node = node
@@ -75,7 +75,7 @@ class FakeLocalization:
         self._catch_up()
 
     def _catch_up(self) -> None:
-        """Localise with the newest pose whose transform is known, and drop older ones."""
+        """Publish the newest pose whose transform is known, and drop older ones."""
         for index in reversed(range(len(self._waiting))):
             message = self._waiting[index]
             stamp = message.header.stamp.to_nsec()

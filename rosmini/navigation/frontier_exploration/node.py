@@ -43,9 +43,9 @@ RETRY_PERIOD = 0.2
 WARN_PERIOD = 5.0
 """Interval between warnings while move_base is missing [s]."""
 STUCK_GOALS = 3
-"""Number of consecutive aborted goals after which the robot counts as stuck,"""
+"""The robot counts as stuck after this number of consecutive aborted goals within `STUCK_DISTANCE`."""
 STUCK_DISTANCE = 0.3
-"""if it has stayed within this distance [m]."""
+"""Maximum distance between the positions of a robot that is stuck [m]."""
 MAX_REPLACEMENTS = 3
 """A goal replaced this many times is kept until the robot arrives or move_base aborts it."""
 POSE_TIMEOUT = 30.0

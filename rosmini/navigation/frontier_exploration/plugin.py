@@ -56,7 +56,10 @@ class BoundedExploreParameters(LayerConfig):
 
 
 def points_in_frame(buffer: Buffer, frame: str, source: str, points: Floats) -> Floats:
-    """Transform points (n, 2) from the frame `source` to `frame`. Raises `TransformException` after `TIMEOUT`."""
+    """Return points (n, 2) [m], given in the frame `source`, in `frame`.
+
+    Raises `TransformException` if the transform is not known within `TIMEOUT`.
+    """
     if source.lstrip("/") == frame:
         return points
     found = buffer.lookup_transform(frame, source.lstrip("/"), Time(0), TIMEOUT)
@@ -173,7 +176,7 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
     # -- frontiers -----------------------------------------------------------------------------------------------
 
     def _next_frontier(self, request: Any) -> Any:
-        """Return the next goal from a pose; the request is refused if no frontier is left."""
+        """Return the next goal for a robot at the requested pose; refuse the request if no frontier is left."""
         start = request.start_pose
         self._wait_until_drawn()
         p = start.pose.position
@@ -244,11 +247,11 @@ def _edge(grid: Costmap2D) -> Floats:
 
 
 def _overlaps(a: Floats, b: Floats) -> bool:
-    """True if the bounding rectangles of two sets of points (n, 2) overlap."""
+    """Return whether the bounding rectangles of two sets of points (n, 2) overlap."""
     return bool((a.min(axis=0) < b.max(axis=0)).all() and (b.min(axis=0) < a.max(axis=0)).all())
 
 
 def _span(points: Floats) -> str:
-    """Format the bounding rectangle of points (n, 2)."""
+    """Return the bounding rectangle of points (n, 2) as text."""
     (x0, y0), (x1, y1) = points.min(axis=0), points.max(axis=0)
     return f"from ({x0:.2f}, {y0:.2f}) to ({x1:.2f}, {y1:.2f})"

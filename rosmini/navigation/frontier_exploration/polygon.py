@@ -25,12 +25,12 @@ class Step(Enum):
 
 
 def contains(vertices: Floats, point: Point) -> bool:
-    """True if a point is inside the polygon (n, 2)."""
+    """Return whether a point is inside the polygon (n, 2)."""
     return bool(inside(np.array([point]), sides_of(vertices))[0])
 
 
 def polygon_error(vertices: Floats) -> str | None:
-    """Return why these vertices (n, 2) enclose no valid area; None if they do."""
+    """Return the reason why these vertices (n, 2) do not enclose a valid area, or None if they do."""
     if len(vertices) < 3:
         return f"a polygon of {len(vertices)} vertices has no area: at least 3 are needed"
     if not np.isfinite(vertices).all():

@@ -5,11 +5,14 @@ corners included (Yamauchi 1997, with the roles that the packages `frontier_expl
 cells). The search spreads from the robot over the cells where its centre may be, so it does not find frontiers that
 the robot cannot reach.
 
-There are three differences from the originals. They spread only over free cells, from the nearest one, and end early if
-that one is enclosed, between the legs of a chair or behind a door where inflation leaves no free cell. The first cell
-of a frontier counts here for its centroid and its distance. There the sum omits it but is divided by the full count, so
-that small frontiers have centroids nearer to the map's origin. And the middle is in the middle here. There it is the
-cell nearest to the robot, usually at the end of a wall, where a robot that is sent there gets stuck.
+There are three differences from the originals:
+
+- The originals spread only over free cells, from the nearest one, and end early if that one is enclosed, between the
+  legs of a chair or behind a door where inflation leaves no free cell.
+- In the originals, the sum for the centroid omits the frontier's first cell but is divided by the full count, so small
+  frontiers have centroids nearer to the map's origin. Here the first cell counts, also for the distance.
+- The originals' middle is the cell nearest to the robot, usually at the end of a wall, where a robot gets stuck. Here
+  it is in the middle.
 """
 
 from __future__ import annotations
@@ -33,7 +36,7 @@ Ints = NDArray[np.int64]
 Point = tuple[float, float]
 
 SAME_GOAL_CELLS = 5
-"""Goals within this many cells of one that was given up, along both axes, also count, as in explore_lite."""
+"""Goals within this many cells of a given-up goal, along both axes, also count as given up, as in explore_lite."""
 MAX_FAILURES = 2
 """Number of failures after which a goal is given up permanently; after the first, the obstacle may have moved."""
 MAX_LISTED = 5
@@ -42,18 +45,18 @@ MAX_LISTED = 5
 
 @dataclass(frozen=True, eq=False)
 class Frontier:
-    """The cells (n, 2) of a frontier, each (mx, my), in the order of discovery; lengths are in metres."""
+    """A connected set of frontier cells; positions and lengths are in metres."""
 
     cells: Ints
-    """The cells in the order of discovery."""
+    """The cells (n, 2), each (mx, my), in the order of discovery."""
     points: NDArray[np.float64]
     """The centres of the cells (n, 2) [m]."""
     min_distance: float
     """Distance from the centre of the robot's cell to the nearest cell [m]."""
     initial: Point
-    """The cell that the search found first."""
+    """The centre of the cell that the search found first."""
     middle: Point
-    """The cell nearest to the centroid."""
+    """The centre of the cell nearest to the centroid."""
     centroid: Point
     """The mean of all cells; it need not be in one of them."""
 
@@ -64,7 +67,7 @@ class Frontier:
 
 
 def frontier_cells(costs: NDArray[np.uint8]) -> Bools:
-    """Return True for each cell (h, w) of a cost grid that is unknown and next to a free one."""
+    """Return a mask (h, w) of the cells of a cost grid that are unknown and beside a free one."""
     free = np.pad(costs == FREE_SPACE, 1)
     beside = free[:-2, 1:-1] | free[2:, 1:-1] | free[1:-1, :-2] | free[1:-1, 2:]
     cells: Bools = beside & (costs == NO_INFORMATION)
@@ -90,7 +93,7 @@ def find_frontiers(grid: Costmap2D, x: float, y: float) -> list[Frontier]:
 
 
 def formatted_points(points: Iterable[Point]) -> str:
-    """Format points [m], at most `MAX_LISTED` of them.
+    """Return points [m] as text, at most `MAX_LISTED` of them.
 
     >>> formatted_points([(1.0, 2.0), (0.5, 0.25)])
     '(1.00, 2.00), (0.50, 0.25)'
@@ -158,10 +161,10 @@ class Blacklist:
     points: list[Point] = field(default_factory=list)
 
     def count(self, point: Point, resolution: float) -> int:
-        """Return how often goals near this point were given up."""
+        """Return how often goals near a point [m] were given up or replaced; `resolution` is the side of a cell [m]."""
         reach = SAME_GOAL_CELLS * resolution
         return sum(abs(point[0] - x) < reach and abs(point[1] - y) < reach for x, y in self.points)
 
     def is_given_up(self, point: Point, resolution: float) -> bool:
-        """True if goals near this point were given up `MAX_FAILURES` times."""
+        """Return whether goals near a point [m] were given up or replaced at least `MAX_FAILURES` times."""
         return self.count(point, resolution) >= MAX_FAILURES

@@ -17,7 +17,7 @@ from rosmini.navigation.navfn.wave import HIGH, interpolated
 
 
 def push(heap: NDArray[np.int32], ranks: NDArray[np.float32], size: int, cell: int, rank: float) -> None:
-    """Insert a cell into a heap of `size` cells with the lowest rank first."""
+    """Insert a cell into a heap of `size` cells, in place; the cell with the lowest rank is first."""
     at = size
     while at > 0:
         above = (at - 1) // 2
@@ -56,7 +56,7 @@ def best_first(
     heuristic: float,
     count: int,
 ) -> int:
-    """Take up to `count` cells from the heap; the arrays hold the whole state, so that the next call continues.
+    """Expand up to `count` cells from the heap. The arrays contain the whole state, so the next call continues.
 
     Args:
         costs: the costs of all cells, row by row; the outermost must be lethal.

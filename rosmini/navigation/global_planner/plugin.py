@@ -123,7 +123,7 @@ class GlobalPlanner(GridPlanner, plugin="global_planner/GlobalPlanner"):
         return GlobalAStar(self.grid.costs, begin, end, **options)
 
     def _set_headings(self, plan: Poses, start: Any) -> None:
-        """Set the headings of the poses."""
+        """Set the headings of all poses but the last, as `orientation_mode` specifies."""
         poses = np.zeros((len(plan), 3))
         poses[:, :2] = [(each.pose.position.x, each.pose.position.y) for each in plan]
         poses[-1, 2] = _yaw(plan[-1])

@@ -24,7 +24,7 @@ GROWTH_MARGIN = 10.0
 
 
 LARGEST_SIDE = 10_000
-"""A larger initial map, of more than this number of cells squared, is limited."""
+"""An initial map with more cells than a square of this side [cells] is limited."""
 
 
 class Extent(NamedTuple):
@@ -63,7 +63,7 @@ def first_extent(
 
 
 def _part(low: int, blocks: int, most: int) -> tuple[int, int]:
-    """Return at most this number of blocks, as near to cell 0 as possible."""
+    """Return the first cell and the number of at most `most` of the blocks, as near to cell 0 as possible."""
     high = low + max(blocks - most, 0) * SIDE
     return min(max(low, -most * SIDE // 2), high), min(blocks, most)
 
@@ -87,7 +87,8 @@ def _grown(low: int, size: int, from_: int, count: int, delta: float) -> tuple[i
 def published(slam: GridSlam, extent: Extent, threshold: float) -> tuple[NDArray[np.int8], Extent]:
     """Return the best particle's map (h, w) as nav_msgs/OccupancyGrid values, and its extent, which may have grown.
 
-    Raises `RosminiError` if it would be too large.
+    A cell is occupied if more than the fraction `threshold` of its visits were beam ends. Raises `RosminiError` if the
+    map would be too large.
     """
     shares, seen = known(slam, slam.best)
     extent = grown(extent, seen, slam.settings.delta)
@@ -105,7 +106,7 @@ def published(slam: GridSlam, extent: Extent, threshold: float) -> tuple[NDArray
 
 
 def known(slam: GridSlam, particle: int) -> tuple[NDArray[np.float64], Extent]:
-    """Return the occupancy of a particle's map, -1 where unknown, cropped to the known cells."""
+    """Return the occupancy (h, w) of a particle's map, -1 where unknown, cropped to the known cells, and its extent."""
     shares, _ = slam.maps.occupancy(particle)
     rows, columns = np.flatnonzero((shares >= 0).any(axis=1)), np.flatnonzero((shares >= 0).any(axis=0))
     if not len(rows):

@@ -57,5 +57,5 @@ class Film:
         return np.array([frame.report.effective for frame in self.frames])
 
     def show(self, **options: Any) -> Any:
-        """Draw a player in which the map grows and paths fork and end; for options see `rosmini.viz.slam_pictures`."""
+        """Return a player in which the map grows and paths fork and end; options as in `rosmini.viz.slam_pictures`."""
         return show("gmapping_film", self, **options)

@@ -124,7 +124,7 @@ class SharedMaps:
     # -- changes -------------------------------------------------------------------------------------------------
 
     def choose(self, indices: NDArray[np.int64]) -> None:
-        """Continue with the maps of these particles; duplicates are not copied until they change."""
+        """Replace the maps by those of the particles `indices` (n,); duplicates are not copied until they change."""
         self.tables = np.ascontiguousarray(self.tables[indices])
         self.owners = np.bincount(self.tables[self.tables != EMPTY_PATCH], minlength=len(self.hits)).astype(np.int64)
 
@@ -156,7 +156,7 @@ class SharedMaps:
     # -- the map -------------------------------------------------------------------------------------------------
 
     def occupancy(self, particle: int) -> tuple[Floats, tuple[float, float]]:
-        """Return the occupancy (h, w) of a particle's map, 0 to 1 or -1 if unknown, and its lower left corner [m]."""
+        """Return the occupancy (h, w) of a particle's map, 0 to 1, or -1 if unknown, and its lower left corner [m]."""
         table = self.tables[particle]
         rows, columns = table.shape
         found = np.full((rows * SIDE, columns * SIDE), -1.0)
@@ -212,7 +212,7 @@ def count(patch: int, i: int, j: int, is_end: bool, x: float, y: float, pool: An
 
 
 def copy_patch(n: int, row: int, column: int, patch: int, pool: Any) -> None:
-    """Give a map its own copy of a shared patch."""
+    """Copy a shared patch of particle `n`'s map into the free patch `patch`, which replaces it."""
     old = pool.tables[n, row, column]
     for i in range(32):
         pool.full[patch, i] = pool.full[old, i]
@@ -228,7 +228,10 @@ def copy_patch(n: int, row: int, column: int, patch: int, pool: Any) -> None:
 
 
 def register(pool: Any, scan: Any, poses: Any, free: Any, first: int) -> int:
-    """Write into the maps from `first` on; return the index of the first one without enough patches, or the count."""
+    """Write a scan into the maps from index `first` on, using the patches `free` for copies.
+
+    Returns the index of the first map for which they are not enough, or the number of maps.
+    """
     taken = 0
     for n in range(first, len(poses)):
         for row in range(scan.touched.shape[0]):

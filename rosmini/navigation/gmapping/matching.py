@@ -1,4 +1,4 @@
-"""Matches a scan with a map: GMapping's scan matcher.
+"""Matching of a scan with a map: GMapping's scan matcher.
 
 The score of a pose depends on the distances from its beam ends to the mean ends in the surrounding cells. A search
 climbs from the odometry's pose, in steps that are halved when none improves the score (Grisetti et al., 2007, section
@@ -88,7 +88,7 @@ class Matcher:
     """Log-likelihood of a beam without an end nearby, before the division by `lsigma`."""
 
     def match(self, maps: SharedMaps, laser_poses: Floats, ranges: Floats, bearings: Floats, usable: float) -> Matched:
-        """Improve the laser pose (n, 3) on each particle's map.
+        """Return better laser poses, near the given ones (n, 3), on the map of each particle.
 
         `ranges` (b,) [m] of 0 and above `usable` are ignored.
         """
@@ -100,7 +100,7 @@ class Matcher:
         return Matched(poses, result[:, 0], result[:, 1])
 
     def score(self, maps: SharedMaps, laser_poses: Floats, ranges: Floats, bearings: Floats, usable: float) -> Matched:
-        """Score the given poses without improving them."""
+        """Return the scores of the given poses (n, 3), without improving the poses."""
         still = replace(self, lstep=0.0, astep=0.0, iterations=0)
         return still.match(maps, laser_poses, ranges, bearings, usable)
 
@@ -147,7 +147,7 @@ FREE_CELL_DISTANCE = math.sqrt(2)
 
 
 def aim(heading: float, beams: Any) -> None:
-    """Rotate the beam ends by the laser's heading."""
+    """Write the beam ends, and the offsets to the cells before them, for a laser's heading [rad] into `beams`."""
     ahead_x, ahead_y = math.cos(heading), math.sin(heading)
     for b in range(len(beams.ranges)):
         cos = ahead_x * beams.cosines[b] - ahead_y * beams.sines[b]

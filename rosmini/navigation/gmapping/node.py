@@ -35,7 +35,7 @@ SHORTEST_PERIOD = 0.001
 
 
 class SlamGmapping:
-    """Simultaneous localisation and mapping as a node."""
+    """The node `slam_gmapping`, which runs a `GridSlam` on the scans that it receives."""
 
     def __init__(self, node: Node) -> None:
         prepare(node)
@@ -182,7 +182,7 @@ class SlamGmapping:
 
 
 def check(message: Any, longest: float | None) -> None:
-    """Raise `RosminiError` for a scan with unusable numbers; `longest` is ~maxRange."""
+    """Raise `RosminiError` for a scan with unusable numbers; `longest` is ~maxRange [m], or None."""
     reach = message.range_max if longest is None else min(message.range_max, longest)
     numbers = message.angle_min, message.angle_increment, message.range_min, reach
     if (

@@ -15,7 +15,7 @@ Text = str
 
 @dataclass(frozen=True)
 class GmappingParameters(Parameters):
-    """The private parameters."""
+    """The private parameters of `slam_gmapping`."""
 
     allowed = ("inverted_laser", "enovation")
     """Names in files for real robots that slam_gmapping ignores since it reads the laser's mounting from tf."""

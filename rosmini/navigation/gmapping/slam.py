@@ -56,7 +56,7 @@ class Settings:
 
 @dataclass(frozen=True)
 class Node:
-    """The robot's pose at a processed scan, and the previous one: paths form a tree."""
+    """The robot's pose at a processed scan, with a link to the previous one: the paths form a tree."""
 
     pose: Pose
     time: float
@@ -77,11 +77,11 @@ class Report:
 
 
 class GridSlam:
-    """The particle filter.
+    """The particle filter. Raises `RosminiError` unless `particles` and `delta` are greater than 0.
 
     Args:
         settings: the filter's parameters.
-        laser: the pose of the laser on the robot.
+        laser: the pose of the laser in the robot's frame.
         start: the robot's initial pose in the map.
         random: the generator of all random numbers.
 
@@ -115,7 +115,7 @@ class GridSlam:
     # -- motion --------------------------------------------------------------------------------------------------
 
     def move(self, odometry: Pose) -> None:
-        """Update the odometry: each particle moves with a random error."""
+        """Move each particle by the change of the odometry since the last call, with a random error."""
         before, self._odometry = self._odometry, odometry
         if before is None:
             return
@@ -137,12 +137,12 @@ class GridSlam:
         self.poses[:, 2] = normalize_angle(self.poses[:, 2])
 
     def jumps_to(self, odometry: Pose) -> bool:
-        """True if the odometry is too far from the last one for a robot to have driven there."""
+        """Return whether the odometry is too far from the last one for a robot to have driven there."""
         before = self._odometry
         return before is not None and math.dist(before[:2], odometry[:2]) > MAX_STEP
 
     def is_due(self, time: float) -> bool:
-        """True if the robot has moved far enough, or enough time has passed, to process the next scan."""
+        """Return whether the robot has moved far enough, or enough time has passed, to process the next scan."""
         s = self.settings
         return (
             self.processed == 0
@@ -154,7 +154,10 @@ class GridSlam:
     # -- scans ---------------------------------------------------------------------------------------------------
 
     def process(self, ranges: Floats, bearings: Floats, odometry: Pose, time: float) -> Report | None:
-        """Process a scan (b,) [m, rad] at an odometry pose and a time [s]; None if the robot has hardly moved."""
+        """Process a scan (b,) [m, rad] at an odometry pose and a time [s]; return a report.
+
+        Returns None, without using the scan, if the robot has hardly moved.
+        """
         self.move(odometry)
         if not self.is_due(time):
             return None
@@ -198,7 +201,7 @@ class GridSlam:
         return raw
 
     def _select(self) -> tuple[float, bool]:
-        """Resample if the effective number of particles is too small; return that number and True if resampled."""
+        """Resample if the effective number of particles is too small; return that number, and whether it did."""
         weights = self.weights
         effective = float(1 / np.square(weights).sum())
         count = len(weights)
@@ -262,5 +265,5 @@ class GridSlam:
         return np.array(counts[::-1], dtype=np.int64)
 
     def show(self, **options: Any) -> Any:
-        """Draw a particle's map, by default the best one's, and all paths: see `rosmini.viz.slam_pictures`."""
+        """Return a picture of all paths and a particle's map, by default the best's: `rosmini.viz.slam_pictures`."""
         return show("gmapping", self, **options)

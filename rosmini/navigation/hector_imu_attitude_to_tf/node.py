@@ -20,14 +20,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class AttitudeParameters(Parameters):
-    """The private parameters."""
+    """The private parameters of `imu_attitude_to_tf_node`."""
 
     base_stabilized_frame: str = parameter("base_stabilized_frame", "the frame that stays level")
     base_frame: str = parameter("base_frame", "the robot's frame, which tilts")
 
 
 def tilt_of(x: float, y: float, z: float, w: float) -> Rigid:
-    """Return an orientation's transform without yaw. Raises `InvalidArgumentException` for an invalid quaternion."""
+    """Return the rotation with the roll and pitch, but not the yaw, of a quaternion x, y, z, w.
+
+    Raises `InvalidArgumentException` for an invalid quaternion.
+    """
     roll, pitch, _ = rpy(rigid((0.0, 0.0, 0.0), (x, y, z, w)))
     return from_rpy((0.0, 0.0, 0.0), roll, pitch, 0.0)
 

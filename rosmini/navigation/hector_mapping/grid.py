@@ -51,12 +51,12 @@ class OccupancyGrid:
         return f"<OccupancyGrid: {width} x {height} cells of {self.resolution:g} m>"
 
     def __contains__(self, point: tuple[float, float]) -> bool:
-        """True if a point [m] is in a cell of the map."""
+        """Return whether a point [m] is in a cell of the map."""
         (x, y), (height, width) = self.cells(np.asarray(point)), self.odds.shape
         return bool(-0.5 <= x < width - 0.5 and -0.5 <= y < height - 0.5)
 
     def cells(self, points: Floats) -> Floats:
-        """Convert points (..., 2) [m] to cells; whole numbers are cell centres."""
+        """Return points (..., 2) [m] in cells (column, row); whole numbers are cell centres."""
         return (points - self.origin) / self.resolution
 
     def update(self, start: tuple[float, float], ends: Floats) -> None:
@@ -87,7 +87,7 @@ class OccupancyGrid:
         self.probabilities[low:high, left:right][changed] = some / (1 + some)
 
     def as_map(self) -> GridMap:
-        """Convert to a grid map: occupied if that is likelier than free, free if not, unknown where both are equal."""
+        """Return a grid map: occupied cells if that is likelier than free, free if not, unknown if both are equal."""
         found = np.full(self.odds.shape, UNKNOWN, dtype=np.int8)
         found[self.odds < 0], found[self.odds > 0] = FREE, OCCUPIED
         half = self.resolution / 2

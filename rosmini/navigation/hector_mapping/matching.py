@@ -1,4 +1,4 @@
-"""Matches a scan with a map: Gauss-Newton on interpolated probabilities (Kohlbrecher et al., 2011, section IV).
+"""Matching of a scan with a map: Gauss-Newton on interpolated probabilities (Kohlbrecher et al., 2011, section IV).
 
 It moves the beam ends onto occupied cells. One defect of the original is not copied: it interpolates the derivatives
 along x by the fraction of x where that of y is needed, and vice versa.
@@ -47,7 +47,7 @@ class Matched(NamedTuple):
 
 
 def match(grid: OccupancyGrid, points: Floats, pose: Pose, iterations: int) -> Matched:
-    """Improve a pose [m, m, rad] so that `points` (n, 2) [m], in the robot's frame, are on occupied cells.
+    """Return the pose near `pose` [m, m, rad] at which `points` (n, 2) [m] in the robot's frame are on occupied cells.
 
     As in the original there is one step more than `iterations`. Matching ends early where the gradient is zero.
     """

@@ -36,13 +36,13 @@ if TYPE_CHECKING:
 TRANSFORM_TIMEOUT = 0.5
 """Maximum time that a scan waits for a transform [s]."""
 MAX_DISORDER_NS = 1_000_000_000
-"""A scan that is older than its predecessor by more than this is from another run: a bag in a loop, a clock reset."""
+"""A scan older than its predecessor by more than this [ns] is from another run: a bag in a loop, or a clock reset."""
 COVARIANCE_INDICES = (0, 1, 5)
 """Indices of x, y and heading in a six by six covariance."""
 
 
 class HectorMapping:
-    """Mapping and localisation without odometry, as a node."""
+    """The node `hector_mapping`, which runs a `HectorSlam` on the scans that it receives."""
 
     def __init__(self, node: Node) -> None:
         prepare(node)
@@ -137,7 +137,10 @@ class HectorMapping:
             self._reset()
 
     def _ends(self, message: Any) -> tuple[NDArray[np.float64], tuple[float, float]]:
-        """Return the beam ends of a scan and the laser's position, in the robot's frame."""
+        """Return the beam ends (n, 2) of a scan, and the laser's position, in the robot's frame [m].
+
+        Raises `RosminiError` for an invalid scan, and `TransformException` if the laser's pose is unknown.
+        """
         p, frame = self.parameters, message.header.frame_id.lstrip("/")
         ranges = np.asarray(message.ranges, dtype=np.float64)
         numbers = (message.angle_min, message.angle_increment, message.range_min, message.range_max)

@@ -12,7 +12,7 @@ from .slam import Settings
 
 @dataclass(frozen=True)
 class HectorMappingParameters(Parameters):
-    """The private parameters."""
+    """The private parameters of `hector_mapping`."""
 
     allowed = ("pub_drawings", "pub_debug_output", "static_laser_frame_ids")
     """Names in files for real robots: debugging output of the original, and its own cache of transforms."""

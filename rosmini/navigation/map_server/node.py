@@ -4,8 +4,9 @@
     rosrun map_server map_server house.pgm 0.05
 
 The second form is also deprecated in ROS. The map is latched on `map`, its metadata on `map_metadata`; `static_map`
-returns the map, and `change_map` loads another. Facts: main.cpp of https://github.com/ros-planning/navigation. Unlike
-there, the result of `change_map` distinguishes errors (there it is 255). As there, its response has no map.
+returns the map, and `change_map` loads another. The behaviour follows main.cpp of
+https://github.com/ros-planning/navigation, except that the result of `change_map` distinguishes errors (in the original
+it is 255). As in the original, its response has no map.
 """
 
 from __future__ import annotations
@@ -125,7 +126,10 @@ class MapServer:
 
 
 def _path_of(address: str) -> str:
-    """Return the path itself, or the path that an address `package://...` or `file://...` refers to."""
+    """Return the path itself, or the path that an address `package://...` or `file://...` refers to.
+
+    Raises `MapMissing` for an unknown package or a missing file in it.
+    """
     if address.startswith("file://"):
         return path_of(address)
     if not address.startswith("package://"):

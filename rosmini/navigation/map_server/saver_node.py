@@ -2,8 +2,8 @@
 
     rosrun map_server map_saver -f house map:=/some/map
 
-It waits for one map, writes `house.pgm` and `house.yaml`, and ends. Facts: map_saver.cpp of
-https://github.com/ros-planning/navigation. Unlike there, the node logs an error and ends if a file cannot be written.
+It waits for one map, writes `house.pgm` and `house.yaml`, and ends. The behaviour follows map_saver.cpp of
+https://github.com/ros-planning/navigation, except that the node logs an error and ends if a file cannot be written.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ USAGE = """Usage:
 
 @dataclass(frozen=True)
 class SaverOptions:
-    """The options of a command line."""
+    """The options of `map_saver`: the name of the files, and thresholds in per cent."""
 
     name: str = "map"
     occupied: int = OCCUPIED_FROM
@@ -36,7 +36,7 @@ class SaverOptions:
 
     @classmethod
     def of(cls, arguments: tuple[str, ...]) -> SaverOptions:
-        """Parse a command line. Raises `UsageError`."""
+        """Return the options on a command line. Raises `UsageError` for an unknown option or an invalid value."""
         found: dict[str, Any] = {}
         words = iter(arguments)
         for word in words:

@@ -18,7 +18,7 @@ ROUND_TOLERANCE = 0.01
 
 
 def check_setup(move_base: Any) -> None:
-    """Warn of parameters that are valid but can leave the robot stuck, and of namespaces that nothing reads."""
+    """Warn about parameters that are valid but can leave the robot stuck, and about namespaces that nothing reads."""
     node = move_base.node
     for costmap in (move_base.global_costmap, move_base.local_costmap):
         for text in inflation_warnings(costmap):
@@ -30,7 +30,7 @@ def check_setup(move_base: Any) -> None:
 
 
 def inflation_warnings(costmap: Any) -> list[str]:
-    """Return warnings about inflation parameters that let planner and controller disagree."""
+    """Return warnings about inflation parameters with which planner and controller can disagree."""
     layers = [layer for layer in costmap.layers if isinstance(layer, InflationLayer)]
     inscribed, circumscribed = costmap.inscribed_radius, costmap.circumscribed_radius
     if not layers:

@@ -1,4 +1,4 @@
-"""`move_base.explain()`: why the robot is where it is."""
+"""`move_base.explain()`: a report of the robot's state, its last problem, and the obstacles around it and its plan."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Explanation:
 
 
 def explain(move_base: MoveBase) -> Explanation:
-    """Report the robot's state, its last problem, and its distances to obstacles."""
+    """Return a report of the robot's state, its last problem, and its distances to obstacles."""
     costmap = move_base.global_costmap
     result = Explanation(grid=costmap.grid, options={"footprint": costmap.footprint, "name": "global_costmap"})
     result.numbers["state"] = move_base.state.value
@@ -67,7 +67,7 @@ def _add_critics(failure: NavigationFailure | None, result: Explanation) -> None
 
 
 def _add_clearance(move_base: MoveBase, result: Explanation) -> None:
-    """Report the distance from the footprint to the nearest obstacle in the local costmap."""
+    """Add the distance from the footprint to the nearest obstacle in the local costmap to the report."""
     costmap = move_base.local_costmap
     try:
         pose = planar_pose(costmap.robot_pose())
@@ -87,7 +87,7 @@ def _add_clearance(move_base: MoveBase, result: Explanation) -> None:
 
 
 def _add_goal_cost(move_base: MoveBase, result: Explanation) -> None:
-    """Report the cost of the goal's cell and the reason for it."""
+    """Add the cost of the goal's cell and the reason for it to the report."""
     if move_base.goal is None:
         return
     costmap = move_base.global_costmap
@@ -103,7 +103,7 @@ def _add_goal_cost(move_base: MoveBase, result: Explanation) -> None:
 
 
 def _add_narrowest_passage(move_base: MoveBase, result: Explanation) -> None:
-    """Report the narrowest passage along the plan, compared with the footprint."""
+    """Add the narrowest passage along the plan, compared with the footprint, to the report."""
     if not move_base.plan:
         result.lines.append("there is no plan")
         return

@@ -1,4 +1,4 @@
-"""Distances between a robot and obstacles, measured on costmaps: arrays in, numbers out."""
+"""Distances between a robot and obstacles, measured on costmaps."""
 
 from __future__ import annotations
 
@@ -26,7 +26,8 @@ def obstacles(grid: Costmap2D, x: float, y: float, reach: float) -> Floats:
 def clearance(grid: Costmap2D, pose: Pose, footprint: ArrayLike, reach: float = 1.0) -> float | None:
     """Return the distance [m] from a footprint's outline (n, 2) at `pose` to the centre of the nearest lethal cell.
 
-    The distance is 0 if such a cell is inside, and None if no cell is within `reach` [m] of the robot's centre.
+    The distance is 0 if such a cell is inside the outline. It is None if no such cell is within `reach` [m] of the
+    robot's centre along both axes, or if the footprint has fewer than three vertices.
     """
     points = obstacles(grid, pose[0], pose[1], reach)
     if not len(points) or len(np.asarray(footprint)) < 3:
@@ -39,7 +40,7 @@ def clearance(grid: Costmap2D, pose: Pose, footprint: ArrayLike, reach: float = 
 def narrowest(grid: Costmap2D, path: Floats, reach: float = 1.0) -> tuple[float, float, float] | None:
     """Return where a path (n, 2) [m] is closest to a lethal cell: x, y, and the distance to the cell's centre [m].
 
-    None if the whole path is farther than `reach` [m] from every lethal cell.
+    Returns None if the whole path is farther than `reach` [m] from every lethal cell.
     """
     best: tuple[float, float, float] | None = None
     for x, y in path.tolist():
@@ -58,7 +59,7 @@ def lethal_cells(layers: Sequence[object]) -> int:
 
 
 def decrease_text(count: int) -> str:
-    """Describe a decrease in the number of lethal cells; a negative `count` is an increase.
+    """Return a description of a decrease in the number of lethal cells; a negative `count` is an increase.
 
     >>> decrease_text(3), decrease_text(-2), decrease_text(0)
     ('3 lethal cells fewer', '2 lethal cells more', 'no lethal cell fewer')

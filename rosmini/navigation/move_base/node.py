@@ -49,7 +49,7 @@ WARN_PERIOD = 1.0
 
 
 class MoveBase:
-    """The `move_base` node; `explain()` reports why the robot is where it is."""
+    """The `move_base` node."""
 
     def __init__(self, node: Node) -> None:
         self.node = node
@@ -148,11 +148,11 @@ class MoveBase:
         return self.planners.of[LOCAL]
 
     def explain(self) -> Explanation:
-        """Explain why the robot is where it is, in words, numbers and a picture."""
+        """Return a report of the robot's state, its last problem, and its distances to obstacles."""
         return explain(self)
 
     def show(self, **options: Any) -> Any:
-        """Draw the loaded parts and the topics that connect them to other nodes."""
+        """Return a picture of the loaded parts and the topics that connect them to other nodes."""
         return show("move_base", self, **options)
 
     def _now(self) -> float:
@@ -180,7 +180,7 @@ class MoveBase:
             self._simple_goal(pose)
 
     def _accept(self, message: Any) -> bool:
-        """Start on a goal, or abort it if it is not a valid pose in the plane; return True if it was accepted."""
+        """Start driving to a goal, or abort it if its pose is invalid or tilted; return whether it was accepted."""
         try:
             checked_goal(message.target_pose)
         except BadGoal as error:
@@ -236,7 +236,7 @@ class MoveBase:
                 )
 
     def _handle_preemption(self) -> bool:
-        """Accept the waiting goal, or stop if there is none; return True if there is a goal to continue with."""
+        """Accept the waiting goal, or stop if there is none; return whether there is a goal to continue with."""
         if self.action.is_new_goal_available():
             return self._accept(self.action.accept_new_goal())
         self._clear_goal()
@@ -266,7 +266,7 @@ class MoveBase:
     # -- one cycle of control ------------------------------------------------------------------------------------
 
     def _cycle(self) -> bool:
-        """Run one control cycle; return True if the goal is finished."""
+        """Run one control cycle; return whether the goal is finished: reached or aborted."""
         with suppress(TransformMissing):
             self._publish_position()
         if not self.local_costmap.is_current:
@@ -300,7 +300,7 @@ class MoveBase:
         self.machine.robot_at(self._now(), x, y)
 
     def _pass_plan(self, plan: Sequence[Any]) -> bool:
-        """Give the local planner a new plan; if it refuses the plan, abort the goal and return False."""
+        """Pass a new plan to the local planner; return whether it took the plan. If it did not, abort the goal."""
         self.plan = plan
         try:
             self._call_planner(LOCAL, "set_plan", plan)
@@ -314,14 +314,14 @@ class MoveBase:
         return True
 
     def _call_planner(self, which: str, method: str, *arguments: Any) -> Any:
-        """Call a method of the global or the local planner."""
+        """Return the result of a method of the global or the local planner; raises what `plugin_calls.call` raises."""
         planner = self.planners.of[which]
         patience = self.config.planner_patience if which == GLOBAL else self.config.controller_patience
         what = f"{method}() of the {which} planner {self.planners.names[which]}"
         return call(self.node, what, getattr(planner, method), *arguments, budget=max(patience, 1.0))
 
     def _follow(self) -> bool:
-        """Command the base along the plan; return True if the goal is reached."""
+        """Publish the command of the local planner; return whether the goal is reached."""
         now = self._now()
         if self._is_reached():
             self._clear_goal()
@@ -390,7 +390,7 @@ class MoveBase:
     # -- plans ---------------------------------------------------------------------------------------------------
 
     def _make_plan(self, goal: Any) -> Sequence[Any]:
-        """Plan from the robot's current pose; return an empty plan on failure."""
+        """Return a plan from the robot's current pose to the goal; empty on failure."""
         try:
             start = self.global_costmap.robot_pose()
         except TransformMissing as error:

@@ -15,7 +15,7 @@ from .state_machine import Limits
 
 @dataclass(frozen=True)
 class MoveBaseConfig(Parameters):
-    """Parameters that can change at run time."""
+    """The parameters of `move_base` that can change at run time."""
 
     dynamic = True
 

@@ -75,7 +75,7 @@ def _planner(which: str) -> str:
 
 
 def _states(move_base: MoveBase) -> Part:
-    """Describe the state machine, which receives goals from the action and from `move_base_simple/goal`."""
+    """Return the part for the state machine, which receives goals from the action and from `move_base_simple/goal`."""
     resolve = move_base.node.resolve
     action, simple = resolve(ACTION + "goal"), resolve("move_base_simple/goal")
     lines = ("state machine", *(state.name for state in State))
@@ -83,7 +83,7 @@ def _states(move_base: MoveBase) -> Part:
 
 
 def _of_planner(move_base: MoveBase, which: str) -> Part:
-    """Describe a planner; the local one publishes on `cmd_vel`."""
+    """Return the part for a planner; the local one publishes on `cmd_vel`."""
     planners = move_base.planners
     publishes = frozenset((move_base.node.resolve("cmd_vel"),)) if which == LOCAL else frozenset()
     return Part(
@@ -95,7 +95,7 @@ def _of_planner(move_base: MoveBase, which: str) -> Part:
 
 
 def _costmap(costmap: Costmap2DROS) -> Part:
-    """Describe a costmap with its layers, lowest first, and their topics."""
+    """Return the part for a costmap, with its layers, lowest first, and their topics."""
     grid = costmap.grid
     size = f"{grid.width} x {grid.height} cells, frame {costmap.global_frame}"
     rows = [layer.name for layer in costmap.layers]
@@ -104,7 +104,7 @@ def _costmap(costmap: Costmap2DROS) -> Part:
 
 
 def _recoveries(move_base: MoveBase) -> Part:
-    """Describe all recovery behaviours as one part, in order."""
+    """Return one part for all recovery behaviours, in order."""
     rows = [f"{number}. {each.name}" for number, each in enumerate(move_base.recovery_behaviors, 1)]
     publishes = {
         value.topic
@@ -116,5 +116,5 @@ def _recoveries(move_base: MoveBase) -> Part:
 
 
 def _is_cleared(move_base: MoveBase, costmap: Costmap2DROS) -> bool:
-    """True if a recovery behaviour declares that it clears this costmap."""
+    """Return whether a recovery behaviour declares that it clears this costmap."""
     return any(costmap in behavior.costmaps() for _, behavior in move_base.recovery_behaviors)

@@ -52,7 +52,7 @@ class PlannerLane:
             waiter.wake()
 
     def take(self) -> Sequence[Any] | None:
-        """Return the latest plan, once; then None until there is another."""
+        """Return the latest plan and forget it; None if there is no new one."""
         plan, self.latest = self.latest, None
         return plan
 

@@ -1,8 +1,8 @@
 """Calls of planners and recovery behaviours from other packages, which may raise, block forever, or never return.
 
 Plugins of rosmini are called directly. Others run in a separate lane with a budget: blocking is limited in seconds of
-the graph's time, and computing by the number of loop iterations, of which 1,000 count as a millisecond, as for loops
-in scripts. Wall-clock time has no effect, so the result is the same on every machine.
+the graph's time, and computing by the number of loop iterations, of which 1,000 count as a millisecond, as they do in
+scripts. Wall-clock time has no effect, so the result is the same on every machine.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ _OURS = (_ROSMINI, *{sysconfig.get_path(kind) for kind in ("stdlib", "purelib", 
 
 
 class PluginFault(NavigationFailure):
-    """Raised if a plugin raises an exception other than `NavigationFailure`, or exceeds its budget."""
+    """Raised if a plugin exceeds its budget, or raises neither `NavigationFailure` nor `ROSInterruptException`."""
 
 
 def call(node: Node, what: str, function: Callable[..., Any], *arguments: Any, budget: float) -> Any:
-    """Call a plugin's method; `what` names it in error messages.
+    """Return the result of a plugin's method, `function`; `what` names it in error messages.
 
     `budget` [s] limits the call, unless the plugin is one of rosmini's. Exceptions of the types `NavigationFailure` and
     `ROSInterruptException` are passed on; any other exception, or exceeding the budget, raises `PluginFault`.
@@ -52,7 +52,7 @@ def call(node: Node, what: str, function: Callable[..., Any], *arguments: Any, b
 
 
 def _location(error: Exception) -> str:
-    """Return file and line of the innermost frame outside rosmini, Python and installed packages."""
+    """Return file and line of the innermost frame outside rosmini, Python and installed packages, if there is one."""
     frames = traceback.extract_tb(error.__traceback__)
     own = [frame for frame in frames if not frame.filename.startswith(_OURS)] or list(frames)
     return f"{Path(own[-1].filename).name}, line {own[-1].lineno}" if own else "nowhere"
@@ -97,7 +97,7 @@ class LoopWatch:
         self._foreign: dict[str, bool] = {}
 
     def start(self) -> None:
-        """Start counting."""
+        """Start counting in this thread, unless it is already being traced."""
         if sys.gettrace() is None:
             sys.settrace(self)
 
@@ -107,7 +107,7 @@ class LoopWatch:
             sys.settrace(None)
 
     def __call__(self, frame: FrameType, event: str, _: Any) -> Callable[..., Any] | None:
-        """Decide whether to trace a new frame; this is a trace function for `sys.settrace`."""
+        """Return the trace function of a new frame, as `sys.settrace` requires; None for frames that do not count."""
         file = frame.f_code.co_filename
         foreign = self._foreign.get(file)
         if foreign is None:

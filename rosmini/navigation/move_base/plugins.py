@@ -30,7 +30,10 @@ class Planners:
         self._handles: dict[str, list[Any]] = {}
 
     def load(self, which: str, name: str) -> None:
-        """Create and start a planner. Raises `PluginError`, in which case the previous planner stays."""
+        """Replace the `GLOBAL` or the `LOCAL` planner by a new one with this plugin name.
+
+        Raises `PluginError` if it cannot be created or initialised; the previous planner, if any, stays.
+        """
         planner, before = self._create(which, name), self.names.get(which)
         self._remove_handles(which)
         try:

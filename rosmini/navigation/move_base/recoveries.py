@@ -23,11 +23,11 @@ class NamedBehavior(NamedTuple):
 
 
 class InvalidList(Exception):
-    """Raised if the list is invalid; the message goes to the log."""
+    """Raised if `recovery_behaviors` is invalid; the message goes to the log."""
 
 
 def parsed_entries(entries: Any) -> list[tuple[str, str]]:
-    """Return name and type of each entry of `recovery_behaviors`. Raises `InvalidList` with ROS's messages."""
+    """Return name and type of each entry of `recovery_behaviors`. Raises `InvalidList`, with ROS's messages."""
     if not isinstance(entries, list):
         raise InvalidList(
             "The recovery behavior specification must be a list, but is of the type "

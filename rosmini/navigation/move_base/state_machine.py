@@ -1,4 +1,4 @@
-"""The state machine of `move_base`: events in, decisions out, without nodes, topics or clocks.
+"""The state machine of `move_base`, which turns events into decisions, without nodes, topics or clocks.
 
 It has three states (http://wiki.ros.org/move_base): PLANNING, until there is a plan; CONTROLLING, while the local
 planner finds commands; CLEARING, while a recovery behaviour tries to free the robot. The trigger, which is the reason
@@ -125,7 +125,7 @@ Decision = Plan | Follow | Recover | Abort
 
 
 class StateMachine:
-    """The state of `move_base` and the decision what to do next.
+    """The state of `move_base`; `step` returns the decision for each control cycle.
 
     `recoveries` is the number of recovery behaviours; `limits` may be replaced at any time.
     """
@@ -180,9 +180,9 @@ class StateMachine:
             self.wants_plan = False
 
     def plan_failed(self, now: float) -> bool:
-        """Handle a failure to plan; return True if patience has run out and the robot has to stop.
+        """Handle a failure to plan; return whether patience has run out, so that the robot has to stop.
 
-        While the robot is following an older plan, it continues to do so.
+        A robot that is following an older plan continues to do so.
         """
         if self.state is not State.PLANNING:
             return False
@@ -201,7 +201,7 @@ class StateMachine:
             self.recovery_index = 0
 
     def robot_at(self, now: float, x: float, y: float) -> None:
-        """Handle a new robot position: a move of `oscillation_distance` counts as progress."""
+        """Handle a new position of the robot [m]: a move of `oscillation_distance` counts as progress."""
         if self._progress_at is not None and math.dist(self._progress_at, (x, y)) < self.limits.oscillation_distance:
             return
         self._progress_at, self.last_progress = (x, y), now
@@ -221,7 +221,7 @@ class StateMachine:
         return Abort(self.trigger.value, ABORT_LOG[self.trigger])
 
     def check_oscillation(self, now: float) -> bool:
-        """Return True, and enter CLEARING, if the robot has made no progress for too long. Call while CONTROLLING."""
+        """Enter CLEARING and return True if the robot has made no progress for too long. Call while CONTROLLING."""
         timeout = self.limits.oscillation_timeout
         if not (timeout > 0 and self.last_progress + timeout < now):
             return False
@@ -254,9 +254,9 @@ class StateMachine:
 
 
 def recovery_steps(names: Sequence[str]) -> list[tuple[str, str, str]]:
-    """Return the steps (from, event, to) of a robot that cannot plan, with recovery behaviours of these names.
+    """Return the steps (from, event, to) of a robot without a plan that has recovery behaviours of these names.
 
-    They come from running the state machine without any plan until it aborts, and after each behaviour with a plan.
+    The state machine runs without a plan until it aborts; after each behaviour a copy of it receives a plan.
     """
     machine, limits = StateMachine(Limits(), len(names)), Limits()
     found: list[tuple[str, str, str]] = []

@@ -3,8 +3,8 @@
 It clears a square around the robot in the obstacle layers, and limits the local planner's speeds through its
 dynamic_reconfigure server until the robot has driven `limited_distance`.
 
-The original clears layers with "obstacles" in their names, and so none with ROBOTIS's files, whose layer is
-obstacle_layer; this one clears layers whose names begin with "obstacle" or "voxel".
+The original clears layers with "obstacles" in their names. ROBOTIS's files have no such layer; theirs is named
+`obstacle_layer`. So this one clears layers whose names begin with "obstacle" or "voxel".
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ class MoveSlowAndClear(RecoveryBehavior, plugin="move_slow_and_clear/MoveSlowAnd
         return [self.global_costmap, self.local_costmap]
 
     def run_behavior(self) -> None:
-        """Clear the square, and limit the speeds until the robot has moved away from here."""
+        """Clear the square, and limit the speeds until the robot is `limited_distance` away from here."""
         self.node.logwarn("Move slow and clear recovery behavior started.")
         try:
             for costmap in self.costmaps():

@@ -20,7 +20,7 @@ MAX_CELLS = 100_000_000
 
 
 def merge(maps: Sequence[tuple[GridMap, Pose]]) -> GridMap:
-    """Merge several maps into one with the cell size of the first.
+    """Return one map, merged from several, with the cell size of the first.
 
     Args:
         maps: maps with the poses (x [m], y [m], yaw [rad]) of their frames in the frame of the result.

@@ -57,7 +57,7 @@ class MapMerge:
     """Merges the maps of robots with known start poses.
 
     Raises:
-        ParameterError: a parameter is wrong, or asks for pose estimation, which is not supported.
+        ParameterError: a parameter is wrong, or `known_init_poses` is false: poses are not estimated.
 
     """
 
@@ -80,7 +80,7 @@ class MapMerge:
     # -- robots --------------------------------------------------------------------------------------------------
 
     def discover(self) -> None:
-        """Look for maps of new robots."""
+        """Subscribe to the maps of new robots."""
         own = self.parameters
         _, _, published = self.node.master.insist("getPublishedTopics", "", warn=self.node.logwarn)
         for topic, kind in sorted(map(tuple, published)):
@@ -124,7 +124,7 @@ class MapMerge:
             self.node.logwarn(f"a map of {name} is ignored: {error}", throttle=10.0)
 
     def _on_update(self, robot: _Robot, update: Any) -> None:
-        """Update a rectangle of cells."""
+        """Update a rectangle of cells in a robot's map; an update that does not fit is ignored with a warning."""
         if robot.grid is None:
             return
         cells = robot.grid.occupancy.copy()
@@ -136,7 +136,7 @@ class MapMerge:
         robot.grid = GridMap(cells, robot.grid.resolution, robot.grid.origin)
 
     def merge(self) -> None:
-        """Publish the merged map if there is at least one map."""
+        """Publish the merged map if there is at least one map; log an error if the maps cannot be merged."""
         maps = [(robot.grid, robot.pose) for robot in self.robots.values() if robot.grid is not None]
         if not maps:
             return

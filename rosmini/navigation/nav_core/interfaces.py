@@ -57,7 +57,7 @@ class BaseLocalPlanner(Plugin, ABC):
 
     @abstractmethod
     def set_plan(self, plan: Sequence[Any]) -> None:
-        """Follow this plan (`geometry_msgs/PoseStamped`, all in one frame) from now on, and reset latched state."""
+        """Start following a plan (`geometry_msgs/PoseStamped`, all in one frame); forget the state of the last one."""
 
     @abstractmethod
     def compute_velocity_commands(self) -> Any:
@@ -68,7 +68,7 @@ class BaseLocalPlanner(Plugin, ABC):
 
     @abstractmethod
     def is_goal_reached(self) -> bool:
-        """Return True if the robot has reached the end of the plan and has stopped."""
+        """Return whether the robot has reached the end of the plan and has stopped."""
 
 
 class RecoveryBehavior(Plugin, ABC):
@@ -90,4 +90,4 @@ class RecoveryBehavior(Plugin, ABC):
 
     @abstractmethod
     def run_behavior(self) -> None:
-        """Run the behaviour. It may block: only the caller's lane waits."""
+        """Run the behaviour to its end. It may block: only the caller's lane waits."""

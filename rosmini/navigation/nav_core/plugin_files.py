@@ -52,11 +52,12 @@ class DeclaredPlugin(NamedTuple):
 
 
 def create(interface: type[T], name: str) -> T:
-    """Create a plugin by name: one declared in a plugin XML file, or else a registered one.
+    """Return a new plugin of this name: one declared in a plugin XML file, or else a registered one.
 
     A C++ library is ignored if a plugin of the same name is registered, because the sources of the Navigation Stack
-    may be in the workspace. Raises `PluginError`, with similar names and the unreadable packages, for an unknown
-    plugin, and for one that cannot be loaded.
+    may be in the workspace. Raises `PluginError` for a plugin that cannot be loaded or created, and for an unknown
+    one, with similar names and the unreadable packages; and another `RosminiError` if the files of the plugin's own
+    package are invalid.
     """
     found = _plugin_class(interface, name)
     try:
@@ -94,7 +95,7 @@ def short_name(name: str) -> str:
 def declared_plugins(name: str, unread: list[str]) -> Iterator[DeclaredPlugin]:
     """Yield the plugins that workspace packages declare: first the package that the name begins with, then all others.
 
-    Raises the errors of the first package; those of the others are added to `unread`.
+    Raises a `RosminiError` if the files of the first package are invalid; errors of the others are added to `unread`.
     """
     index = PackageIndex()
     first = name.partition("/")[0]
@@ -109,7 +110,7 @@ def declared_plugins(name: str, unread: list[str]) -> Iterator[DeclaredPlugin]:
 
 
 def _is_ours(folder: Path) -> bool:
-    """True if a package is part of rosmini, whose plugins are registered."""
+    """Return whether a package, by its folder, is part of rosmini, whose plugins are registered."""
     from rosmini.core.packages import assets_dir
 
     return folder.is_relative_to(assets_dir())

@@ -20,14 +20,20 @@ TILT_TOLERANCE = 1e-3
 
 
 def planar_pose(pose: Any) -> Pose:
-    """Return x [m], y [m] and heading [rad] of a `geometry_msgs/Pose` or `PoseStamped`."""
+    """Return x [m], y [m] and heading [rad] of a `geometry_msgs/Pose` or `PoseStamped`.
+
+    Raises `GeometryError` if the length of the quaternion is 0 or not finite.
+    """
     pose = getattr(pose, "pose", pose)
     p, q = pose.position, pose.orientation
     return p.x, p.y, yaw_from_quaternion(q.x, q.y, q.z, q.w)
 
 
 def planar_transform(message: Any) -> Pose:
-    """Return x [m], y [m] and heading [rad] of a `geometry_msgs/TransformStamped`."""
+    """Return x [m], y [m] and heading [rad] of a `geometry_msgs/TransformStamped`.
+
+    Raises `GeometryError` if the length of the quaternion is 0 or not finite.
+    """
     t, q = message.transform.translation, message.transform.rotation
     return t.x, t.y, yaw_from_quaternion(q.x, q.y, q.z, q.w)
 

@@ -1,4 +1,4 @@
-"""A search written by the reader, displayed and stepped like those of the planners."""
+"""A search that the reader of the book wrote, displayed and stepped like those of the planners."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ DARKEST = 252
 
 
 class HandSearch(Search):
-    """The steps of a search written by the reader, cell by cell.
+    """The recorded steps of a search that the reader of the book wrote.
 
     Args:
         price: the cost of entering each cell (column, row); cells that are missing are walls.
@@ -32,7 +32,8 @@ class HandSearch(Search):
         parent: the predecessor of each cell that was reached, except the start.
 
     Raises:
-        RosminiError: `taken`, `cost` and `parent` contradict each other; the message names the cell.
+        OutsideMap: start or goal is outside the grid.
+        RosminiError: a cell in `taken` or `cost` lacks a price, a cost or a parent; the message names the cell.
 
     """
 
@@ -70,7 +71,10 @@ class HandSearch(Search):
         return self._done
 
     def path_to(self, goal: Point) -> Points:
-        """Return the path along the parents (n, 2). Raises a `PlanningFailure` if the goal was not reached."""
+        """Return the path along the parents (n, 2), in columns and rows.
+
+        Raises a `PlanningFailure` if the goal was not reached, or `RosminiError` if the parents form a loop.
+        """
         if self.potential_at(cell_of(goal)) >= HIGH:
             raise self.failure()
         points = [cell_of(goal)]

@@ -51,7 +51,10 @@ def slope(before: float, here: float, after: float, width: float) -> float:
 
 
 def lowest_around(potential: NDArray[np.float32], n: int, width: int) -> int:
-    """Return the lowest of a cell and its eight neighbours, without passing between two unreached cells."""
+    """Return the index of the lowest of cell `n` and those neighbours that can be reached without cutting a corner.
+
+    A step cuts a corner if it is diagonal and both cells beside it are unreached.
+    """
     best = n
     for i in range(9):
         m = n + (i // 3 - 1) * width + i % 3 - 1
@@ -74,7 +77,7 @@ def unreached_beside(potential: NDArray[np.float32], n: int, m: int, width: int)
 
 
 def surrounded(potential: NDArray[np.float32], n: int, width: int) -> bool:
-    """True if a cell and its eight neighbours were all reached."""
+    """Return whether cell `n` and its eight neighbours were all reached."""
     highest = potential[n]
     for i in range(9):
         highest = max(highest, potential[n + (i // 3 - 1) * width + i % 3 - 1])
@@ -84,7 +87,7 @@ def surrounded(potential: NDArray[np.float32], n: int, width: int) -> bool:
 def down(potential: NDArray[np.float32], n: int, width: int, dx: float, dy: float) -> tuple[float, float]:
     """Return the unit vector of descent at offset (dx, dy) [cells] from the centre of cell `n`.
 
-    Interpolate between `n` and its neighbours to the right, above, and above right; (0, 0) if no direction leads down.
+    It is interpolated between `n` and its neighbours to the right, above, and above right; (0, 0) if all are level.
     """
     gx = gy = 0.0
     for corner in range(4):
@@ -106,7 +109,11 @@ def down(potential: NDArray[np.float32], n: int, width: int, dx: float, dy: floa
 def step_down(
     potential: NDArray[np.float32], n: int, width: int, dx: float, dy: float
 ) -> tuple[int, int, float, float]:
-    """Move half a cell down from the offset (dx, dy) in `n`: return `NORMAL`, or `NONE_LOWER`, and the new position."""
+    """Move half a cell against the gradient, from the offset (dx, dy) [cells] to the centre of cell `n`.
+
+    Return `NORMAL` and the new cell and offset; or `NONE_LOWER` and the old ones if nothing leads down, or only into
+    an unreached cell.
+    """
     gx, gy = down(potential, n, width, dx, dy)
     to_x, to_y = dx + 0.5 * gx, dy + 0.5 * gy
     near = n + math.floor(to_x + 0.5) + math.floor(to_y + 0.5) * width
@@ -124,7 +131,10 @@ def step_down(
 
 
 def step_to_lowest(potential: NDArray[np.float32], n: int, width: int, dx: float, dy: float) -> tuple[int, int]:
-    """Move to the centre of the lowest neighbour, or first of this cell if an unreached cell is beside the step."""
+    """Move to the centre of the lowest neighbour, or first of this cell if an unreached cell is beside the step.
+
+    Return `NORMAL`, or `NONE_LOWER` at the centre of a cell without a lower neighbour, and the new cell.
+    """
     centred = dx == 0 and dy == 0
     n += math.floor(dx + 0.5) + math.floor(dy + 0.5) * width
     m = lowest_around(potential, n, width)

@@ -81,7 +81,7 @@ class GridPlanner(BaseGlobalPlanner):
     def point(self, pose: Any, off_map: str, offset: float) -> tuple[float, float]:
         """Return a pose's position on the grid (column, row); with an offset of 0.5 whole numbers are cell centres.
 
-        Raises `OutsideMap`, with a message that starts with `off_map`.
+        Raises `OutsideMap` if it is outside the grid or not finite; the message starts with `off_map`.
         """
         x, y = pose.pose.position.x, pose.pose.position.y
         finite = math.isfinite(x) and math.isfinite(y)
@@ -100,7 +100,10 @@ class GridPlanner(BaseGlobalPlanner):
         return column, row
 
     def poses(self, path: NDArray[np.float64], offset: float) -> Poses:
-        """Return messages for the points (columns and rows) of a path, stamped with the current time."""
+        """Return `PoseStamped` messages for a path (n, 2) of columns and rows, stamped with the current time.
+
+        `offset` is that of `point`.
+        """
         made, stamp, frame = [], self.now(), self.costmap.global_frame
         for x, y in (path + offset) * self.grid.resolution + np.asarray(self.grid.origin):
             pose = self._pose()

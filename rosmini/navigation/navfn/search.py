@@ -54,7 +54,10 @@ class Search(ABC):
         quadratic: bool = True,
         grid_path: bool = False,
     ) -> None:
-        """Prepare the search. `table` is the cost of entering a cell by its cost value, infinite if impassable.
+        """Prepare the search.
+
+        `table` is the cost of entering a cell by its cost value (256,), infinite if impassable. With `quadratic`
+        potentials are interpolated between two neighbours. With `grid_path` paths lead from cell to cell.
 
         Raises `OutsideMap` if start or goal is outside the grid.
         """
@@ -137,7 +140,10 @@ class Search(ABC):
         return self.path_to(self.goal)
 
     def path_to(self, goal: Point) -> Points:
-        """Return the path to another point. Raises a `PlanningFailure` if that has not been reached."""
+        """Return the path from the start to any point (n, 2), in columns and rows, as far as the search has come.
+
+        Raises a `PlanningFailure` if the point has not been reached.
+        """
         if not self._inside(goal) or self.potential_with_rim[self._index(cell_of(goal))] >= HIGH:
             raise self.failure()
         walk = compiled_descend()
@@ -163,11 +169,11 @@ class Search(ABC):
         return float(self.potential_with_rim[self._index(cell)]) if self._inside(cell) else HIGH
 
     def failure(self, grid: Costmap2D | None = None) -> PlanningFailure:
-        """Return the reason why there is no path, with numbers; in metres if a grid is given."""
+        """Return the reason why there is no path: see `search_failure`."""
         return search_failure(self, grid)
 
     def show(self, **options: Any) -> Any:
-        """Draw the costs, the potential, the frontier and, if the goal was reached, the path."""
+        """Return a picture of the costs, the potential, the frontier and, if the goal was reached, the path."""
         return show("search", self, **options)
 
     @abstractmethod
@@ -178,10 +184,10 @@ class Search(ABC):
 
 
 def search_failure(search: Search, grid: Costmap2D | None = None) -> PlanningFailure:
-    """Return the failure of a finished search that did not reach its goal; in metres if a grid is given.
+    """Return the failure of a finished search that did not reach its goal; its text is in metres if a grid is given.
 
-    Its numbers are `start`, `goal`, `goal_cost`, `reachable` [cells], `nearest` (a reachable cell), and the `distance`
-    from there to the goal (in cells, or metres if a grid is given).
+    Its numbers are `start`, `goal`, `goal_cost`, `reachable` [cells], `nearest` (the reachable cell nearest to the
+    goal), and the `distance` from there to the goal (in cells, or metres if a grid is given).
     """
     reached = search.reached
     count = int(reached.sum())
@@ -230,7 +236,7 @@ def _place(cell: tuple[float, float], grid: Costmap2D | None) -> str:
 
 
 def show_steps(searches: Mapping[str, Search], **options: Any) -> Any:
-    """Draw searches that have not started, by name, side by side and step by step."""
+    """Return a player for searches that have not started, by name: they run side by side, step by step."""
     return show("search_steps", searches, **options)
 
 
@@ -307,7 +313,7 @@ class WaveSearch(Search):
 
 
 class NavfnSearch(WaveSearch):
-    """navfn: `potential` is the path cost from the start to each cell, interpolated between its neighbours."""
+    """The search of navfn; `potential` is the path cost to each cell, interpolated between its neighbours."""
 
     def __init__(
         self,
@@ -347,7 +353,10 @@ COST_OBS = 254
 
 
 def navfn_table(allow_unknown: bool) -> NDArray[np.float32]:
-    """Return the cost of entering a cell by cost value [256]: 50 + 0.8 cost, 253 if unknown, infinite from 253."""
+    """Return the cost of entering a cell by its cost value (256,): 50 + 0.8 cost up to 252, infinite above.
+
+    Unknown cells (255) cost 253 if `allow_unknown`.
+    """
     table = np.full(256, np.inf, dtype=np.float32)
     table[:253] = np.minimum(np.floor(COST_NEUTRAL + COST_FACTOR * np.arange(253)), COST_OBS - 1)
     if allow_unknown:

@@ -42,7 +42,7 @@ def interpolated(a: float, b: float, cost: float) -> float:
 
 
 def enqueue(cell: np.uint64, at: int, blocks: NDArray[np.int32], pending: NDArray[np.uint8]) -> int:
-    """Append a cell to the waiting cells at this index of the blocks; return the next index."""
+    """Write a cell into `blocks` at the index `at`, and mark it as pending; return the next index."""
     pending[cell] = 1
     blocks[at] = cell
     return at + 1
@@ -62,7 +62,7 @@ def wave(
     heuristic: float,
     count: int,
 ) -> int:
-    """Expand up to `count` cells; the arrays hold the whole state, so that the next call continues.
+    """Expand up to `count` cells; the state is in the arrays, so that the next call continues.
 
     Args:
         costs: the costs of all cells, row by row; the outermost must be lethal.

@@ -57,7 +57,10 @@ class RotateRecovery(RecoveryBehavior, plugin="rotate_recovery/RotateRecovery"):
         return float(self.node.get_param(PLANNER + name, default))
 
     def run_behavior(self) -> None:
-        """Rotate; give up at the first heading that causes a collision."""
+        """Rotate once; give up at the first heading that causes a collision, or after the time limit.
+
+        Raises `TransformMissing` if the robot's pose is unknown at the start.
+        """
         self.node.logwarn("Rotate recovery behavior started.")
         rate = self.node.rate(self.parameters.frequency)
         heading = self._pose()[2]

@@ -9,7 +9,7 @@ from rosmini.core.geometry.angles import shortest_angular_distance
 
 
 class FullTurn:
-    """A full counter-clockwise turn from the heading `start` [rad]; done within `tolerance` [rad]."""
+    """A full counter-clockwise turn from the heading `start` [rad], which ends within `tolerance` [rad] of it."""
 
     def __init__(self, start: float, tolerance: float) -> None:
         self.start, self.tolerance = start, tolerance
