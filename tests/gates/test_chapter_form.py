@@ -74,7 +74,6 @@ def broken_rules(chapter: str) -> set[str]:
 
 
 TO_REWRITE: dict[str, set[str]] = {
-    "turtlebot3": {"cells", "columns", "first motion", "hints", "lines", "mentions", "private API", "words"},
     "teleoperation": {"cells", "columns", "hints", "lines", "mentions", "private API", "words"},
     "simulation_and_stage": {"cells", "columns", "hints", "lines", "mentions", "private API", "words"},
     "gazebo": {"cells", "hints", "lines", "mentions", "private API", "words"},

@@ -1,309 +1,180 @@
-"""Checks of the exercises in the chapter TurtleBot3."""
+"""Checks of the exercises in the chapter TurtleBot3: each runs a script with a separate robot."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from itertools import pairwise
+from typing import Any
 
-import numpy as np
+from rosmini.book.checks import Script, exercise, expect
+from rosmini.book.trials import Trial
 
-from rosmini.book.checks import Wrong, exercise, expect, expect_number
-from rosmini.core.graph import Graph
-from rosmini.msgs.sensor_msgs.msg import LaserScan
-from rosmini.ros.scripts import rosrun
+from .nodes_and_master import driver
 
-if TYPE_CHECKING:
-    from rosmini.sim.simulator import Simulator
+Pose = tuple[float, float, float]
 
 
-def _robot(graph: Graph, *parameters: str) -> Simulator:
-    found: Simulator = rosrun("rosmini_sim", "simulator", "_world:=empty", *parameters, graph=graph).instance()
+def poses(trial: Trial, seconds: float, period: float = 0.5) -> list[Pose]:
+    """Let time pass, and return the true poses of the robot after each period [m, m, rad]."""
+    found = []
+    for _ in range(round(seconds / period)):
+        trial.run(period)
+        found.append(trial.robot.truth())
     return found
 
 
-# ---- circle: a circle ----
+# ---- eight: a figure of eight ----
+
+RADIUS = 0.4
+"""Radius of both circles of the eight [m]."""
 
 
-def _driven(command: Any, seconds: float) -> list[tuple[float, float, float]]:
-    """Return the poses after 0, 0.1 ... s of a robot without errors that receives this command ten times a second."""
-    with Graph() as graph:
-        sim = _robot(graph, "_noise:=0")
-        cmd_vel = graph.node("driver").publisher("cmd_vel", type(command), queue_size=1)
-        cmd_vel.wait_for_subscribers()
-        way = [sim.truth()]
-        for _ in range(round(10 * seconds)):
-            cmd_vel.publish(command)
-            graph.run(0.1)
-            way.append(sim.truth())
-    return way
-
-
-@exercise(
-    "circle", praise="A robot without errors drove your circles: each has the right size and ends where it started."
-)
-def circle(answer: Any) -> None:
-    """The command for a circle to the left with a given radius and duration."""
-    for radius, seconds in ((0.5, 20.0), (0.2, 10.0)):
-        asked = f"For a radius of {radius} m in {seconds:.0f} s"
-        command = answer(radius, seconds)
+@exercise("eight", praise="Both circles have the right size, and the robot is back at its start.")
+def eight(answer: Script) -> Any:
+    """The robot drives a circle to the left and one to the right, and stops where it started."""
+    with Trial("empty") as trial:
+        trial.start(answer)
+        way = poses(trial, 60.0)
+        if math.dist(way[-1][:2], way[-3][:2]) > 0.01:  # a slow eight
+            way += poses(trial, 120.0)
+        highest, lowest = max(y for _, y, _ in way), min(y for _, y, _ in way)
         expect(
-            getattr(command, "_type", "") == "geometry_msgs/Twist",
-            f"It returned a {type(command).__name__}, not a Twist.",
-            "make a Twist(), set linear.x and angular.z, and return it",
-        )
-        v, w = command.linear.x, command.angular.z
-        expect(w > 0, f"{asked} the robot does not turn to the left.", "left turns have positive angular.z")
-        expect(
-            v <= 0.22 and w <= 2.84,
-            f"{asked} you request {v:.2f} m/s and {w:.2f} rad/s, which is more than the robot's maximum.",
-            "a circle of this size needs lower speeds; angles are in radians",
-        )
-        way = _driven(command, seconds)
-        across = max(y for _, y, _ in way)
-        expect(
-            abs(across / 2 - radius) < 0.02 * radius,
-            f"{asked} the robot drove on a circle of radius {across / 2:.2f} m.",
-            "the radius is v / w",
+            highest > 0.1 or lowest < -0.1,
+            "The robot did not drive a circle.",
+            "publish a Twist with linear.x and angular.z ten times a second, for the time of a full circle",
         )
         expect(
-            math.dist(way[-1][:2], way[0][:2]) < 0.05 * radius,
-            f"{asked} the robot turned by {math.degrees(way[-1][2]):.0f} degrees, not by 360.",
-            "a full circle is 2 pi, and w is the part of it that the robot turns in a second",
+            math.dist(way[-1][:2], way[-3][:2]) < 0.01,
+            "The robot still drives.",
+            "after the second circle, publish Twist() once",
         )
-
-
-# ---- front_distance: what is in front ----
-
-
-def _scan(ranges: Any, first: float = 0.0) -> Any:
-    """Return a scan of a full turn whose first beam points at `first` [rad]."""
-    scan = LaserScan()
-    scan.ranges = np.asarray(ranges, dtype=np.float32)
-    scan.angle_min, scan.angle_increment = first, 2 * math.pi / len(ranges)
-    scan.angle_max = first + scan.angle_increment * (len(ranges) - 1)
-    scan.range_min, scan.range_max = 0.12, 3.5
-    return scan
-
-
-@exercise("front_distance", praise="Your function works with any laser, because it reads the angles from the message.")
-def front_distance(answer: Any) -> None:
-    """The shortest valid range within an angle of straight ahead."""
-
-    def far(**at: float) -> Any:
-        ranges = np.full(360, 3.0)
-        for beam, value in at.items():
-            ranges[int(beam[1:])] = value
-        return ranges
-
-    wide = math.radians(30)
-    shown = (
-        (_scan(far(b10=0.8)), wide, 0.8, "an obstacle 10 degrees to the left", "angles in radians"),
-        (
-            _scan(far(b350=0.7)),
-            wide,
-            0.7,
-            "an obstacle 10 degrees to the right",
-            "beam 350 of 360 points 10 degrees to the right: the sector continues at the end of the list",
-        ),
-        (
-            _scan(far(b45=0.5, b300=0.6)),
-            wide,
-            3.0,
-            "obstacles 45 and 60 degrees to the side",
-            "ignore beams outside the sector",
-        ),
-        (
-            _scan(far(b20=0.9)),
-            math.radians(15),
-            3.0,
-            "a sector of 15 degrees, and an obstacle at 20",
-            "half_width limits the sector on each side",
-        ),
-        (_scan(far(b3=0.0, b5=1.1)), wide, 1.1, "a beam of 0.0", "0.0 is less than range_min, so it is invalid"),
-        (
-            _scan(far(b3=-math.inf, b355=math.nan, b7=1.2)),
-            wide,
-            1.2,
-            "beams of -inf and nan",
-            "use only ranges between range_min and range_max",
-        ),
-        (
-            _scan(np.full(360, math.inf)),
-            wide,
-            math.inf,
-            "a scan without a valid range",
-            "return math.inf if no beam is left",
-        ),
-        (
-            _scan(np.full(360, 6.0)),
-            wide,
-            math.inf,
-            "a scan whose ranges are all beyond range_max",
-            "a range above range_max is not a measurement",
-        ),
-        (
-            _scan(far(b180=0.4, b0=0.3), first=-math.pi),
-            wide,
-            0.4,
-            "a laser whose first beam points backwards",
-            "the angle of beam i is angle_min + i * angle_increment",
-        ),
-    )  # fmt: skip
-    for scan, half_width, right, what, hint in shown:
-        found = expect_number(answer(scan, half_width), "distance")
-        expect(
-            found == right or abs(found - right) < 1e-6, f"For {what} it returned {found:.2f}, not {right:.2f}.", hint
-        )
-
-
-# ---- wheel_separation: how far apart are the wheels ----
-
-NARROW, WIDE = 2, 7
-"""Seeds of graphs whose robots have a wheel separation of 158.3 mm and 163.7 mm."""
-
-
-@exercise(
-    "wheel_separation",
-    praise="With this number in its firmware, the robot would turn much more accurately than with the nominal one.",
-)
-def wheel_separation(answer: Any) -> None:
-    """The effective wheel separation of two robots, measured while they turn on the spot."""
-    for seed in (NARROW, WIDE):
-        with Graph(seed=seed) as graph:
-            sim = _robot(graph)
-            wheels = sim.engine.robot(sim.name).wheels
-            found = expect_number(answer(graph, sim), "distance")
-            right = wheels.separation
-        expect(
-            0.1 < found < 0.25,
-            f"It returned {found:.3f}, which is not a plausible wheel separation of a TurtleBot3 in metres.",
-            "it is (distance of the right wheel - distance of the left wheel) / angle, with the angle in radians",
-        )
-        expect(
-            abs(found - right) < 5e-4,
-            f"One robot has a wheel separation of {1000 * right:.1f} mm, but you found {1000 * found:.1f} mm.",
-            "turn several times; odometry assumes 160 mm, and the ground truth shows the real angle",
-        )
-
-
-# ---- safe_speed: not faster than it can see ----
-
-
-@exercise(
-    "safe_speed",
-    praise="At full speed a TurtleBot3 needs 68 mm: 44 mm until the scan arrives, and 24 mm to brake.")  # fmt: skip
-def safe_speed(answer: Any) -> None:
-    """The highest speed at which a robot with delayed scans stops in time."""
-    for distance, period, acceleration in (
-        (0.05, 0.2, 1.0), (0.02, 0.2, 1.0), (0.03, 0.1, 1.0), (0.04, 0.2, 0.5), (0.0, 0.2, 1.0), (1.0, 0.2, 1.0),
-    ):  # fmt: skip
-        found = expect_number(answer(distance, period, acceleration), "speed")
-        right = min(0.22, acceleration * (math.sqrt(period**2 + 2 * distance / acceleration) - period))
-        case = f"{1000 * distance:.0f} mm, {period} s and {acceleration} m/s2"
-        expect(
-            found <= 0.22 + 1e-9,
-            f"For {case} you return {found:.2f} m/s, more than a TurtleBot3 can drive.",
-            "limit it with min(0.22, ...)",
-        )
-        needed = found * period + found * found / (2 * acceleration)
-        expect(
-            found <= right + 1e-6,
-            f"For {case} you return {found:.3f} m/s, at which it needs {1000 * needed:.1f} mm to stop.",
-            "add up v * period and v * v / (2 * acceleration)",
-        )
-        expect(
-            found >= right - 1e-6,
-            f"For {case} you return {found:.3f} m/s; it could drive faster, as it needs only {1000 * needed:.1f} mm "
-            "to stop.",
-            "find the speed at which both distances add up to the given one",
-        )  # fmt: skip
-
-
-# ---- mast: a mast ----
-
-BURGER_URDF = "package://turtlebot3_description/urdf/turtlebot3_burger.urdf.xacro"
-
-
-def _looks(robot: Any, link: str, kind: type, **sizes: float) -> Any:
-    """Expect a link to have one visual of this kind and these sizes [m]; return it."""
-    from rosmini.sim.urdf import Cylinder
-
-    word = "cylinder" if kind is Cylinder else "sphere"
-    visuals = robot.links[link].visuals
-    expect(len(visuals) == 1, f"{link} has {len(visuals)} visuals.", f"give it one, with a <{word}>")
-    shape = visuals[0].geometry
-    expect(
-        isinstance(shape, kind),
-        f"The visual of {link} is a {type(shape).__name__.lower()}.",
-        f"its geometry is a <{word}>",
-    )
-    for name, right in sizes.items():
-        found = getattr(shape, name)
-        expect(
-            abs(found - right) < 1e-6,
-            f"The {word} of {link} has the {name} {found:g} m, not {right:g} m.",
-            "lengths are in metres; the radius is half of the diameter",
-        )
-    return visuals[0]
-
-
-@exercise(
-    "mast", praise="The mast is there, and every program that reads the description knows the position of its ball."
-)
-def mast(answer: Any) -> None:
-    """A piece of URDF: a mast with a ball on top, for a TurtleBot3 Burger."""
-    from rosmini.sim.urdf import Cylinder, Sphere, UrdfError, load, xacro
-
-    burger = xacro.expand(BURGER_URDF)
-    for height in (0.3, 0.12):
-        asked = f"For a height of {height} m"
-        piece = answer(height)
-        expect(
-            isinstance(piece, str),
-            f"{asked} it returned a {type(piece).__name__}, not a string.",
-            "return the lines of XML as one string",
-        )
-        try:
-            robot = load(burger.replace("</robot>", piece + "</robot>"), meshes=False)
-        except UrdfError as error:
-            raise Wrong(
-                f"{asked} the description cannot be read: {error}", "compare it with a joint of the Burger"
-            ) from error
-        for notes in robot.left_out.values():
-            raise Wrong(f"{asked} a part cannot be read: {notes[0]}", "compare it with a link of the Burger")
-        for link in ("mast_link", "beacon_link"):
-            expect(link in robot.links, f"There is no link {link}.", "compare the names with the task")
-            kind = robot.above[link].type
+        first = next(y for _, y, _ in way if abs(y) > 0.1)
+        expect(first > 0, "The first circle is to the right.", "left turns have positive angular.z")
+        for side, found in (("left", highest), ("right", -lowest)):
             expect(
-                kind == "fixed",
-                f"{link} is the child of a {kind} joint.",
-                "the parts do not move, so the type of the joint is fixed",
+                abs(found - 2 * RADIUS) < 0.06,
+                f"The circle to the {side} has a radius of {max(found, 0.0) / 2:.2f} m, not {RADIUS} m.",
+                "the radius is v / w, and a full circle takes 2 pi / w seconds",
             )
-        _places(robot, height, asked)
-        pole = _looks(robot, "mast_link", Cylinder, radius=0.005, length=height)
-        x, y, z = pole.origin.xyz
+        gap = math.dist(way[-1][:2], (0.0, 0.0))
         expect(
-            abs(x) < 1e-6 and abs(y) < 1e-6 and abs(z - height / 2) < 1e-6,
-            f"{asked} the cylinder reaches from {z - height / 2:.3f} m to {z + height / 2:.3f} m above the foot.",
-            "the origin of a cylinder is its centre: raise the visual by half of the height",
+            gap < 0.12,
+            f"The robot stopped {gap:.2f} m from its start.",
+            "a full circle takes 2 pi / w seconds; the robot needs no stop between the circles",
         )
-        ball = _looks(robot, "beacon_link", Sphere, radius=0.015)
-        expect(
-            ball.origin.xyz == (0.0, 0.0, 0.0),
-            "The ball is not centred on the frame beacon_link.",
-            "remove the origin of its visual: the joint puts the frame at the top",
-        )
+        return trial.view()
 
 
-def _places(robot: Any, height: float, asked: str) -> None:
-    """Expect the frames of mast and ball at the right positions."""
-    places = robot.transforms()
-    base = places["base_link"][:3, 3]
-    for link, right in (("mast_link", (-0.09, 0.0, 0.15)), ("beacon_link", (-0.09, 0.0, 0.15 + height))):
-        found = places[link][:3, 3] - base
+# ---- dock: stop with the laser 0.30 m from a wall ----
+
+DOCK_X, LASER_BEHIND = -8.0, 0.032
+"""x coordinate of the house's west wall, and how far behind the robot's position the laser is [m]."""
+
+
+@exercise("dock", praise="It found a wall that was out of sight at first, and stopped within 2 cm.")
+def dock(answer: Script) -> Any:
+    """The robot docks at a wall, from near and from out of the laser's reach."""
+    docks_from(answer, -6.5)
+    return docks_from(answer, -3.9)
+
+
+def docks_from(answer: Script, start: float) -> Any:
+    """Run the script with a robot that faces the west wall from x = `start` [m]; return the drive."""
+    with Trial("house", f"_x:={start}", "_y:=0.8", "_yaw:=3.14159265", "_use_rep_117:=false") as trial:
+        trial.start(answer)
+        trial.run(start - DOCK_X + 45.0)
+        before = trial.robot.truth()[0]
+        trial.run(4.0)
+        x = trial.robot.truth()[0]
+        trial.expect_no_errors()
+        seen = "near" if start < -6.0 else "out of the laser's reach"
         expect(
-            bool(np.allclose(found, right, atol=1e-6)),
-            f"{asked} the frame {link} is at ({found[0]:.2f}, {found[1]:.2f}, {found[2]:.2f}) in base_link, "
-            f"not at ({right[0]:.2f}, {right[1]:.2f}, {right[2]:.2f}).",
-            "the origin of a joint is the pose of the child's frame in the parent's; x points forwards",
+            x < start - 0.05,
+            f"The wall was {seen}, and the robot did not drive.",
+            "a range of 0.0 is not a distance: nothing was measured, so the wall is far away",
         )
+        distance = x - DOCK_X + LASER_BEHIND
+        expect(distance > 0.12, "The robot ran into the wall.", "the nearer the wall, the slower")
+        expect(abs(x - before) < 0.02, "The robot still drives.", "its speed must reach 0 at a distance of 0.30 m")
+        expect(
+            abs(distance - 0.30) <= 0.02,
+            f"The laser is {distance:.2f} m from the wall, not 0.30 m.",
+            "make the speed proportional to the distance that is left",
+        )
+        return trial.view()
+
+
+# ---- follow_wall: around the arena ----
+
+HALF = 2.0
+"""The walls of the arena are at x and y = +-2 m."""
+
+
+@exercise("follow_wall", praise="It went around the arena and kept its distance, corners included.")
+def follow_wall(answer: Script) -> Any:
+    """The robot follows the wall on its right at 0.4 m."""
+    with Trial("arena", "_x:=-0.5", "_y:=-1.4") as trial:
+        trial.start(answer)
+        poses(trial, 15.0)
+        way = poses(trial, 105.0)
+        trial.expect_no_errors()
+        gaps = [HALF - max(abs(x), abs(y)) for x, y, _ in way]
+        driven = sum(math.dist(a[:2], b[:2]) for a, b in pairwise(way))
+        expect(
+            driven > 5.0,
+            f"The robot drove only {driven:.1f} m in 105 s.",
+            "set linear.x while there is room ahead, and turn left where there is none",
+        )
+        expect(min(gaps) > 0.13, "The robot touched a wall.", "turn left on the spot if something is near ahead")
+        turns = (way[-1][2] - way[0][2]) / (2 * math.pi)
+        expect(
+            turns > 0.6,
+            f"The robot made {turns:.1f} turns to the left in 105 s; around the arena there is one in about 90 s.",
+            "the wall is on the right: beams 180 to 359",
+        )
+        far = max(gaps)
+        expect(
+            far < 0.75,
+            f"The robot was up to {far:.2f} m from the nearest wall; follow it at about 0.4 m.",
+            "if the wall is too far to the right, turn right",
+        )
+        usual = sorted(gaps)[len(gaps) // 2]
+        expect(
+            0.3 <= usual <= 0.5,
+            f"Most of the time the robot was about {usual:.2f} m from the wall, not 0.4 m.",
+            "a beam at 45 degrees measures the distance divided by sin(45 degrees)",
+        )
+        return trial.view()
+
+
+# ---- low_battery: stop with an empty battery ----
+
+CHARGED, EMPTY = 0.5, 0.02
+"""Charge levels with a voltage above and below 11.0 V."""
+
+
+@exercise("low_battery", praise="It drives with a good battery, and stops when the voltage falls.", gaps=2)
+def low_battery(answer: Script) -> Any:
+    """The node passes wishes on while the battery is good."""
+    with Trial("arena", "_board:=true", f"_battery:={EMPTY}") as trial:
+        trial.start(answer)
+        trial.start(driver(turn=0.5), "cmd_vel:=wish")
+        trial.run(6.0)
+        x, y, _ = trial.robot.truth()
+        expect(
+            math.hypot(x, y) < 0.02,
+            "The battery was below 11.0 V, and the robot drove.",
+            "compare the last voltage with 11.0, and publish Twist() if it is lower",
+        )
+        trial.expect_no_errors()
+    with Trial("arena", "_board:=true", f"_battery:={CHARGED}") as trial:
+        trial.start(answer)
+        trial.start(driver(turn=0.5), "cmd_vel:=wish")
+        way = poses(trial, 12.0)
+        trial.expect_no_errors()
+        expect(
+            max(math.hypot(x, y) for x, y, _ in way) > 0.5,
+            "The battery was good, and the robot did not drive.",
+            "publish the wish itself while the voltage is 11.0 or more",
+        )
+        return trial.view()

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import re
-import shlex
-import sys
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -13,8 +10,6 @@ import pytest
 
 from book.tools import notebooks
 from book.tools.captions import CAPTION
-
-from ...processes import run
 
 NOTEBOOKS = Path(__file__).resolve().parents[3] / "notebooks"
 
@@ -65,25 +60,3 @@ def printed(cells: Any, start: str) -> str:
 def all_printed(cells: Any) -> str:
     """What all cells have printed."""
     return "".join(output.get("text", "") for cell in cells for output in cell.get("outputs", ()))
-
-
-def write_scripts(prose: str, folder: Path) -> set[str]:
-    """Write the scripts that a page lists to a folder; their names."""
-    scripts = dict(re.findall(r"^`(\w+\.py)`:\n\n```python\n(.*?)^```", prose, re.DOTALL | re.MULTILINE))
-    for name, text in scripts.items():
-        (folder / name).write_text(text, encoding="utf-8")
-    return set(scripts)
-
-
-def run_rosmini(command: str, folder: Path) -> tuple[int, str, str]:
-    """Run `rosmini` with these words; its exit status and what it printed."""
-    done = run([sys.executable, "-m", "rosmini", *shlex.split(command)], cwd=folder)
-    return done.returncode, done.stdout, done.stderr
-
-
-def assert_scripts_print_what_is_shown(prose: str, folder: Path, names: set[str]) -> None:
-    """Run the scripts that a page lists by the command that it shows; they print what stands below it."""
-    assert write_scripts(prose, folder) == names
-    shown = re.search(r"^```console\n\$ uv run rosmini (run .*?)\n(.*?)^```", prose, re.DOTALL | re.MULTILINE)
-    assert shown is not None
-    assert run_rosmini(shown[1], folder) == (0, shown[2], "")
