@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import RosminiError
@@ -14,12 +15,15 @@ if TYPE_CHECKING:
 
 PID = "4242"
 
+OWN_TOOLS = f"{sys.executable} -m rosmini "
+"""How a command line of rosmini's begins where a command line of ROS begins with the tool."""
+
 _PID = re.compile(r"(?<=\bPid: )\d+|(?<=\bpid \[)\d+")
 
 
 def book_text(text: str, places: Places) -> str:
-    """Return a text with the paths and process numbers of the book."""
-    return _PID.sub(PID, places.shown(text))
+    """Return a text with the paths, command lines and process numbers of the book."""
+    return _PID.sub(PID, places.shown(text.replace(OWN_TOOLS, "")))
 
 
 class BookErrors:

@@ -23,6 +23,9 @@ def test_cells_print_the_books_form_where_the_book_is_made(notebook, monkeypatch
     assert notebook.ok("%rospack find notebook") == "~/catkin_ws/src/notebook\n"
     assert notebook.ok("%rospack find rosmini_sim") == "/opt/ros/noetic/share/rosmini_sim\n"
     assert "Pid: 4242" in notebook.ok("%rosnode info /rosout")
+    notebook.ok('%%launch far.launch\n<launch><node pkg="rosmini_sim" type="square.py" name="far" ns="amy"/></launch>')
+    said = notebook.ok("%roslaunch --args=/amy/far notebook far.launch")
+    assert said == 'ROS_NAMESPACE="/amy" rosrun rosmini_sim square.py __name:=far\n'
 
 
 def test_so_do_the_errors_of_cells(notebook, monkeypatch):
