@@ -8,7 +8,8 @@ from PIL import Image
 
 from rosmini.msgs import message_class
 from rosmini.sim.models import CameraModel
-from rosmini.sim.sensors.rendering import capture
+from rosmini.sim.sensors.rendering import develop, expose
+from rosmini.sim.sensors.scene import Scene, parts_of
 from rosmini.sim.worlds import world
 from rosmini.viz import ViewError, image_picture
 from rosmini.viz.image_pictures import ENCODINGS, pixels_of
@@ -60,8 +61,8 @@ def test_a_picture_shows_the_pixels():
 
 def test_a_camera_in_the_room_is_said_in_words():
     camera = CameraModel("camera", (0.07, 0.0, 0.1), 160, 120, 1.09)
-    image, depths = capture(camera, (0.0, 0.0, 0.0), world("room"))
-    view = image_picture(image)
+    light, depths = expose(camera, (0.0, 0.0, 0.0), Scene.of(parts_of(world("room").obstacles)))
+    view = image_picture(develop(light))
     assert "upper half light blue, lower half light grey" in view.text
     deep = image_picture(depths, title="Depth")
     finite = depths[np.isfinite(depths)]

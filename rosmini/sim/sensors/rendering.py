@@ -15,23 +15,19 @@ shows the point at its centre. Light and ground are described in `rosmini.sim.se
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.core.errors import RosminiError
 from rosmini.core.geometry.poses import Pose
 from rosmini.sim.models import CameraModel
-from rosmini.sim.shapes import Part
-from rosmini.sim.world import World
 
 from . import raster, shading
 from .raster import GROUND, Eye, Lens
 from .scene import Scene
 
-__all__ = ["CameraError", "CameraInfo", "Eye", "camera_info", "capture", "depth", "eye_of", "render"]
+__all__ = ["CameraInfo", "Eye", "camera_info", "develop", "expose", "eye_of"]
 
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
@@ -39,13 +35,6 @@ Depths = NDArray[np.float32]
 Light = NDArray[np.float32]
 """(3, h, w): planes of red, green and blue, 0 to 1."""
 Ints = NDArray[np.int64]
-
-View = Scene | World | Iterable[Part]
-"""The visible objects; a cached `Scene` is fastest."""
-
-
-class CameraError(RosminiError, ValueError):
-    """The camera's pose is invalid."""
 
 
 @dataclass(frozen=True)
@@ -81,70 +70,34 @@ def camera_info(camera: CameraModel, baseline: float = 0.0) -> CameraInfo:
     return CameraInfo(camera.width, camera.height, k, p)
 
 
-def eye_of(camera: CameraModel, pose: Pose, height: float = 0.0, roll: float = 0.0) -> Eye:
-    """Return the position and orientation of the camera of a robot at `pose`.
-
-    `height` is that of the robot's base_footprint above the ground [m]; `roll` turns the camera about its optical axis,
-    to the right [rad].
-
-    Raises:
-        CameraError: the pose is not finite.
-
-    """
-    x, y, theta = (float(v) for v in pose)
-    if not all(map(math.isfinite, (x, y, theta, height, roll))):
-        raise CameraError(f"a camera cannot look from ({x}, {y}, {theta}), {height} m up: that must be finite")
+def eye_of(camera: CameraModel, pose: Pose) -> Eye:
+    """Return the position and orientation of the camera of a robot at `pose`."""
+    x, y, theta = pose
     mx, my, mz = camera.mount
     c, s = math.cos(theta), math.sin(theta)
-    position = np.array([x + c * mx - s * my, y + s * mx + c * my, height + mz])
-    return Eye(position, axes_of(theta + camera.yaw, camera.pitch, roll), lens_of(camera))
+    position = np.array([x + c * mx - s * my, y + s * mx + c * my, mz])
+    return Eye(position, axes_of(theta + camera.yaw, camera.pitch), lens_of(camera))
 
 
-def axes_of(yaw: float, pitch: float, roll: float = 0.0) -> Floats:
-    """Return right, down and ahead of a camera as rows (3, 3), turned by roll, pitch and yaw [rad] (REP 103)."""
-    (cy, sy), (cp, sp), (cr, sr) = ((math.cos(a), math.sin(a)) for a in (yaw, pitch, roll))
+def axes_of(yaw: float, pitch: float) -> Floats:
+    """Return right, down and ahead of a camera as rows (3, 3), turned by pitch and yaw [rad] (REP 103)."""
+    (cy, sy), (cp, sp) = ((math.cos(a), math.sin(a)) for a in (yaw, pitch))
     ahead = np.array([cy * cp, sy * cp, -sp])
-    left = np.array([cy * sp * sr - sy * cr, sy * sp * sr + cy * cr, cp * sr])
-    up = np.array([cy * sp * cr + sy * sr, sy * sp * cr - cy * sr, cp * cr])
+    left = np.array([-sy, cy, 0.0])
+    up = np.array([cy * sp, sy * sp, cp])
     return np.array([-left, -up, ahead])
 
 
-def capture(
-    camera: CameraModel | Eye, pose: Pose, view: View, *, noise: Floats | None = None, depth_far: float | None = None
-) -> tuple[Image, Depths]:
-    """Return the image (h, w, 3), red, green, blue, and the depths (h, w) [m] that a camera sees at one moment.
+def expose(camera: CameraModel, pose: Pose, scene: Scene) -> tuple[Light, Depths]:
+    """Return the light (3, h, w) on a camera's pixels, before noise, for `develop`, and the depths (h, w) [m].
 
-    Args:
-        camera: the camera's model; or an eye anywhere, in which case `pose` is ignored.
-        pose: the pose of the robot that carries it.
-        view: the visible objects.
-        noise: (h, w), added to each pixel's brightness, on a scale from 0 (black) to 1 (white); see `camera_noise`.
-        depth_far: the maximum measured depth [m]; the camera's own if not given.
-
-    Depths are along the camera's axis (REP 118). They are inf if nothing is within reach (REP 117); objects
-    nearer than the camera's `near` are invisible in the image and in the depths, as in Gazebo.
-
-    Raises:
-        CameraError: the pose is not finite.
-
+    `pose` is that of the robot that carries the camera. Depths are along the camera's axis (REP 118). They are inf if
+    nothing is within reach (REP 117); objects nearer than the camera's `near` are invisible in the image and in the
+    depths, as in Gazebo.
     """
-    light, depths = expose(camera, pose, view, depth_far=depth_far)
-    return develop(light, noise), depths
-
-
-def expose(
-    camera: CameraModel | Eye, pose: Pose, view: View, *, depth_far: float | None = None
-) -> tuple[Light, Depths]:
-    """Return the light (3, h, w) on the camera's pixels, before noise, for `develop`, and the depths (h, w) [m].
-
-    Arguments and errors are those of `capture`.
-    """
-    eye = camera if isinstance(camera, Eye) else eye_of(camera, pose)
-    scene = _scene(view)
+    eye = eye_of(camera, pose)
     inverse, shown = look(eye, scene)
-    if depth_far is None and isinstance(camera, CameraModel):
-        depth_far = camera.depth_far
-    return shading.coloured(eye, scene, inverse, shown), _depths(inverse, eye, depth_far)
+    return shading.coloured(eye, scene, inverse, shown), _depths(inverse, eye, camera.depth_far)
 
 
 def develop(light: Light, noise: Floats | None = None) -> Image:
@@ -154,20 +107,6 @@ def develop(light: Light, noise: Floats | None = None) -> Image:
     np.clip(planes, 0.0, 255.0, out=planes)
     planes += 0.5
     return np.ascontiguousarray(planes.astype(np.uint8).transpose(1, 2, 0))
-
-
-def render(camera: CameraModel | Eye, pose: Pose, view: View, *, noise: Floats | None = None) -> Image:
-    """Return only the image (h, w, 3); see `capture`."""
-    return capture(camera, pose, view, noise=noise)[0]
-
-
-def depth(camera: CameraModel | Eye, pose: Pose, view: View, *, far: float | None = None) -> Depths:
-    """Return only the depths (h, w) [m]; see `capture`."""
-    eye = camera if isinstance(camera, Eye) else eye_of(camera, pose)
-    if far is None and isinstance(camera, CameraModel):
-        far = camera.depth_far
-    inverse, _ = look(eye, _scene(view))
-    return _depths(inverse, eye, far)
 
 
 def camera_noise(camera: CameraModel, rng: np.random.Generator, scale: float = 1.0) -> Floats | None:
@@ -219,9 +158,3 @@ def _depths(inverse: Floats, eye: Eye, far: float | None) -> Depths:
     far = eye.lens.far if far is None else min(far, eye.lens.far)
     depths = np.full(inverse.shape, np.inf, dtype=np.float32)
     return np.divide(1.0, inverse, out=depths, where=inverse * far >= 1.0 - 1e-12, casting="same_kind")
-
-
-def _scene(view: View) -> Scene:
-    if isinstance(view, Scene):
-        return view
-    return Scene.of_world(view) if isinstance(view, World) else Scene.of(view)

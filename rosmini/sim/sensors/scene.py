@@ -19,7 +19,7 @@ from rosmini.core.geometry.products import norms
 from rosmini.sim.shapes import Cylinder, Part, Sphere, outline_at, simple_parts
 
 if TYPE_CHECKING:
-    from rosmini.sim.world import Obstacle, World
+    from rosmini.sim.world import Obstacle
 
 Floats = NDArray[np.float64]
 Rgb = tuple[float, float, float]
@@ -113,11 +113,6 @@ class Scene:
             _normals(faces),
             np.repeat([True, False], [len(sides), len(top)]),
         )
-
-    @classmethod
-    def of_world(cls, world: World) -> Scene:
-        """Return a world with its obstacles at their initial poses."""
-        return cls.walls(world.walls, world.wall_height, solid=world.solid) + cls.of(parts_of(world.obstacles))
 
 
 def parts_of(obstacles: Iterable[Obstacle]) -> list[Part]:

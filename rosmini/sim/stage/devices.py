@@ -167,7 +167,6 @@ class StageTransforms(Device):
         super().__init__(host, "transforms", rate)
         self._moving: list[tuple[StageBase, MakeTransform]] = []
         self._still: list[Callable[[int, int], Any]] = []
-        self._sometimes: list[tuple[Callable[[], bool], Callable[[int, int], Any]]] = []
         self._list: Any = message_class("tf2_msgs/TFMessage")
         self._publisher = host.node.publisher("/tf", self._list, queue_size=100)
 
@@ -176,27 +175,15 @@ class StageTransforms(Device):
         self._moving.append((base, moving_transform(base.odom_frame, base.base_frame)))
         self._still.append(fixed_transform(base.base_frame, names.frame("base_link"), (0.0, 0.0, 0.0)))
 
-    def sensor(
-        self,
-        frame: str,
-        child: str,
-        place: tuple[float, float, float],
-        rotation: Sequence[float],
-        wanted: Callable[[], bool] | None = None,
-    ) -> None:
-        """Add a sensor at a position [m], turned by a quaternion; if `wanted` is given, only while it returns True."""
-        make = fixed_transform(frame, child, place, rotation)
-        if wanted is None:
-            self._still.append(make)
-        else:
-            self._sometimes.append((wanted, make))
+    def sensor(self, frame: str, child: str, place: tuple[float, float, float], rotation: Sequence[float]) -> None:
+        """Add a sensor at a position [m], turned by a quaternion."""
+        self._still.append(fixed_transform(frame, child, place, rotation))
 
     def due(self, stamp: Stamp, _: int, /) -> None:
         """Publish the current transforms."""
         if not self._publisher.num_connections():
             return
-        fixed = [*self._still, *(make for wanted, make in self._sometimes if wanted())]
-        made = [make(*stamp) for make in fixed]
+        made = [make(*stamp) for make in self._still]
         made += [make(*stamp, base.reckoned.pose) for base, make in self._moving]
         self._publisher.publish(MessageFactory(partial(self._list, transforms=made), is_frozen=True))
 

@@ -2,18 +2,17 @@
 
     rosrun stage_ros stageros [-g] [-u] world/willow-erratic.world
 
-For each robot it subscribes to `cmd_vel`, and publishes `odom`, `base_scan`, `base_pose_ground_truth` and, for a
-camera, `image`, `depth` and `camera_info`; for all of them `/tf` and `/clock`; everything once per step of the
-simulation (`interval_sim`, usually 0.1 s). With several robots each has a namespace: `/robot_0` and so on. The
-service `reset_positions` returns everything to its initial pose. Time starts at 0, and /use_sim_time is set, so
-that nodes that start later use it.
+For each robot it subscribes to `cmd_vel`, and publishes `odom`, `base_scan` and `base_pose_ground_truth`; for all of
+them `/tf` and `/clock`; everything once per step of the simulation (`interval_sim`, usually 0.1 s). With several robots
+each has a namespace: `/robot_0` and so on. The service `reset_positions` returns everything to its initial pose. Time
+starts at 0, and /use_sim_time is set, so that nodes that start later use it.
 
 After 0.2 s without a command to any robot all of them stop: `~base_watchdog_timeout`. They share one watchdog, as in
 stageros: a robot without commands continues while another one receives some.
 
 Facts: http://wiki.ros.org/stage_ros, and stageros.cpp of https://github.com/ros-simulation/stage_ros. Differences:
 frames have no leading slash; several transforms are in one message; bodies touch, slide and push (in Stage a robot
-stops before a contact); with -g there are cameras too.
+stops before a contact); cameras are not simulated.
 """
 
 from __future__ import annotations
@@ -35,7 +34,6 @@ from rosmini.sim.models import RobotModel
 from rosmini.sim.simulation import Simulation
 
 from .bases import laser_model, robot_model
-from .camera_device import StageCameraDevice
 from .devices import End, StageBase, StageLaserDevice, StageTransforms, StageTruth, Watchdog
 from .errors import StageError
 from .odometry import STILL
@@ -56,9 +54,6 @@ class StageParameters(Parameters):
 
     base_watchdog_timeout: float = parameter(
         WATCHDOG, "without a command for so long all robots stop; 0: never", unit="s"
-    )
-    is_depth_canonical: bool = parameter(
-        True, "publish depth as 32FC1 in metres (REP 118); else as 16UC1 in millimetres"
     )
 
 
@@ -88,7 +83,6 @@ class OneRobot:
             self.lasers.append(host.add(StageLaserDevice(host, name, label, laser, model, topic=topic, frame=frame)))
             place = (laser.pose[0], laser.pose[1], laser.pose[2])
             stage.transforms.sensor(names.frame("base_link"), frame, place, quaternion_from_yaw(laser.pose[3]))
-        self.cameras = [self._camera(stage, i) for i in range(len(robot.cameras))]
 
     @property
     def model(self) -> RobotModel:
@@ -99,17 +93,6 @@ class OneRobot:
     def namespace(self) -> str:
         """The namespace of its topics: robot_0; empty for a single robot."""
         return self.names.prefix
-
-    def _camera(self, stage: Stageros, i: int) -> StageCameraDevice:
-        robot, names = self.file, self.names
-        number = i if len(robot.cameras) > 1 else None
-        rate, canonical = 1 / stage.file.interval, stage.parameters.is_depth_canonical
-        camera = stage.host.add(
-            StageCameraDevice(stage.host, self.name, robot.cameras[i], names, number, rate=rate, canonical=canonical)
-        )
-        place = robot.cameras[i].pose[:3]
-        stage.transforms.sensor(names.frame("base_link"), camera.frame, place, camera.rotation(), camera.wanted)
-        return camera
 
 
 class Stageros(Simulation):
@@ -170,7 +153,7 @@ class Stageros(Simulation):
             except IllegalName as error:
                 what = f"with -u the name of {robot.name!r} is that of its topics, and that it cannot be: {error}"
                 raise StageError(robot.place, what) from error
-            devices = f"{_count(len(robot.lasers), 'laser')} and {_count(len(robot.cameras), 'camera')}"
+            devices = f"{len(robot.lasers)} laser{'' if len(robot.lasers) == 1 else 's'} and 0 cameras"
             self.node.loginfo(f"robot {robot.number}, {robot.name}, has {devices}")
 
     # -- events --------------------------------------------------------------------------------------------------
@@ -236,7 +219,3 @@ def _options(arguments: tuple[str, ...]) -> tuple[str, bool, bool]:
         )
         raise ScriptError(f"{what}.\n{USAGE}")
     return os.fspath(files[0]), "-u" in flags, "-g" not in flags
-
-
-def _count(number: int, what: str) -> str:
-    return f"{number} {what}{'' if number == 1 else 's'}"

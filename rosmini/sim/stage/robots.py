@@ -1,4 +1,4 @@
-"""Position models of a Stage file, with the lasers and cameras that they carry.
+"""Position models of a Stage file, with the lasers that they carry.
 
 Height of a ranger: with `stack_children` (the default) a child model stands on top of its parent, so a laser with
 `pose [0.05 0 0 0]` on a robot 0.25 m high is 0.26 m above the ground (half of the sensor's own 2 cm is added),
@@ -12,7 +12,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from rosmini.sim.models import MAX_BEAMS, MAX_PIXELS
+from rosmini.sim.models import MAX_BEAMS
 
 from .errors import Place, StageError
 from .parse import Entity
@@ -25,10 +25,8 @@ Drive = Literal["diff", "omni", "car"]
 QUARTER = math.pi / 2
 
 BASE = ("wheelbase", "velocity", "acceleration_bounds", "odom")
+"""Properties without an effect: robots reach the velocity of a command at once, and stand at first."""
 SENSOR_SIZE = (0.02, 0.02, 0.02)
-CAMERA_RANGE, CAMERA_FOV, CAMERA_RESOLUTION = (0.2, 8.0), (70.0, 40.0), (32.0, 32.0)
-LASER3_RANGE, LASER3_FOV, LASER3_SAMPLES = (0.0, 8.0), math.pi, 180
-"""Defaults of Stage 3's model `laser`."""
 
 
 @dataclass(frozen=True)
@@ -45,27 +43,6 @@ class StageLaser:
     samples: int
     noise: tuple[float, float]
     """Standard deviation of a range [m], and the maximum of an additional relative error."""
-    place: Place
-
-
-@dataclass(frozen=True)
-class StageCamera:
-    """A camera, which also measures depth."""
-
-    pose: Pose4
-    """Relative to the robot's pose."""
-    elevation: float
-    """Its height above the ground [m]."""
-    width: int
-    height: int
-    fov: tuple[float, float]
-    """Horizontal and vertical field of view [rad]."""
-    near: float
-    far: float
-    pan: float
-    """Its rotation to the right of its pose [rad]: Stage's sense, opposite to REP 103."""
-    tilt: float
-    """Its downward inclination [rad]."""
     place: Place
 
 
@@ -95,36 +72,28 @@ class StageRobot:
     body: tuple[Thing, ...]
     """All models with a body: the base, and those it carries."""
     lasers: tuple[StageLaser, ...]
-    cameras: tuple[StageCamera, ...]
     place: Place
 
 
 def robot(thing: Thing, number: int, units: Units) -> StageRobot:
-    """Return the robot of a position model. Raises `StageError` for too many beams or pixels."""
+    """Return the robot of a position model. Raises `StageError` for too many beams."""
     reader = thing.reader
     lasers: list[StageLaser] = []
-    cameras: list[StageCamera] = []
     body: list[Thing] = []
     for each in thing.family():
         if each.kind == "position" and each is not thing:
             what = "the position {} is on another one: it is part of that robot here, and does not drive by itself"
             units.note(each.place, what, each.name, left_out="a position on another one")
-        if each.kind in ("ranger", "laser", "camera") and not any(each is child for child in thing.children):
+        if each.kind == "ranger" and not any(each is child for child in thing.children):
             units.note(each.place, "{} is not directly on a position: stageros does not find it", each.name)
-        elif each.kind in ("ranger", "laser"):
+        elif each.kind == "ranger":
             lasers += _laser(each, thing, units)
-        elif each.kind == "camera":
-            cameras += _camera(each, thing, units)
         if each.body is not None:
             body.append(each)
     x, y, _, a = thing.at
     origin = reader.several("localization_origin", "llla", thing.at)
-    bounds = _bounds(reader, units)
-    _notes(reader, units)
-    wheelbase = reader.length("wheelbase", 1.0)
-    if wheelbase == 0:
-        units.note(reader.place("wheelbase"), "wheelbase is 0; 1 m is used, Stage's default")
-        wheelbase = 1.0
+    bounds = _bounds(reader)
+    wheelbase = reader.length("wheelbase", 1.0) or 1.0
     drive = reader.text("drive", "diff", ("diff", "omni", "car"))
     localization = reader.text("localization", "gps", ("gps", "odom"))
     return StageRobot(
@@ -142,7 +111,6 @@ def robot(thing: Thing, number: int, units: Units) -> StageRobot:
         mass=thing.mass or 1.0,
         body=tuple(body),
         lasers=tuple(lasers),
-        cameras=tuple(cameras),
         place=thing.place,
     )
 
@@ -157,31 +125,12 @@ def _odom_error(reader: Reader) -> tuple[float | None, float | None, float | Non
     return (ahead, left if said > 1 else None, turn if said > 3 else None)
 
 
-def _bounds(reader: Reader, units: Units) -> tuple[Bounds, Bounds, Bounds]:
+def _bounds(reader: Reader) -> tuple[Bounds, Bounds, Bounds]:
     full = (-1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -QUARTER, QUARTER)
     found = reader.several("velocity_bounds", "llllllaa", full)
     pairs = [(found[i], found[i + 1]) for i in (0, 2, 6)]
-    for name, (low, high) in zip(("ahead", "to the left", "of turning"), pairs, strict=True):
-        if low > high:
-            what = f"velocity_bounds: the speed {name} is from {low:g} to {high:g}; the two are exchanged"
-            units.note(reader.place("velocity_bounds"), what)
     ahead, left, turn = ((min(pair), max(pair)) for pair in pairs)
     return (ahead, left, turn)
-
-
-def _notes(reader: Reader, units: Units) -> None:
-    if reader.find("acceleration_bounds") is not None:
-        what = (
-            "acceleration_bounds change nothing: stageros tells bases their velocity, which they have at once, as in "
-            "Stage"
-        )
-        units.note(reader.place("acceleration_bounds"), what)
-    if reader.find("odom") is not None:
-        units.note(reader.place("odom"), "Stage no longer knows odom; see localization_origin")
-    if reader.find("velocity") is not None:
-        units.note(reader.place("velocity"), "a robot stands at first: its velocity is what cmd_vel says")
-    if not reader.flag("obstacle_return", default=True):
-        units.note(reader.place("obstacle_return"), "obstacle_return 0 changes nothing: robots are solid")
 
 
 def _on(thing: Thing, base: Thing) -> Pose4:
@@ -196,8 +145,6 @@ def _on(thing: Thing, base: Thing) -> Pose4:
 
 def _laser(thing: Thing, base: Thing, units: Units) -> list[StageLaser]:
     """Return the laser that stageros publishes for a ranger; none if it measures nothing."""
-    if thing.kind == "laser":
-        return _old_laser(thing, base, units)
     sensors = [child for child in thing.entity.children if child.kind == "sensor"]
     if not sensors:
         what = "the ranger {} has no sensor( ... ), so it measures nothing and is left out"
@@ -226,23 +173,8 @@ def _sensor(entity: Entity, thing: Thing, base: Thing, units: Units) -> list[Sta
     return _checked(StageLaser(mounted, height, low, high, fov, samples, noise, entity.place), reader, units)
 
 
-def _old_laser(thing: Thing, base: Thing, units: Units) -> list[StageLaser]:
-    """Return a laser of Stage 3, whose files are still in use."""
-    reader = thing.reader
-    units.note(thing.place, "Stage 4 knows no laser; it is read as a ranger with one sensor")
-    low = reader.length("range_min", LASER3_RANGE[0])
-    high = reader.length("range_max", LASER3_RANGE[1])
-    fov = reader.angle("fov", LASER3_FOV)
-    samples = reader.whole("samples", LASER3_SAMPLES)
-    on = moved(_on(thing, base), thing.origin)
-    height = base.at[2] + on[2] + SENSOR_SIZE[2] / 2
-    laser = StageLaser(on, height, low, high, fov, samples, (0.0, 0.0), thing.place)
-    return _checked(laser, reader, units)
-
-
 def _checked(laser: StageLaser, reader: Reader, units: Units) -> list[StageLaser]:
     """Return the laser with valid numbers; none if it measures nothing. Raises `StageError` for too many beams."""
-    name = "range" if "range" in reader.entity.properties else "range_max"
     if laser.samples < 1 or laser.range_max <= 0:
         what = f"a ranger of {laser.samples} samples up to {laser.range_max:g} m measures nothing and is left out"
         units.note(laser.place, what, left_out="a ranger that measures nothing")
@@ -252,49 +184,10 @@ def _checked(laser: StageLaser, reader: Reader, units: Units) -> list[StageLaser
         raise StageError(reader.place("samples"), f"samples is {laser.samples}; {most}", most)
     if not 0 <= laser.range_min < laser.range_max:
         span = f"from {laser.range_min:g} m to {laser.range_max:g} m"
-        units.note(reader.place(name), f"a ranger measures {span}; the first is taken for 0")
+        units.note(reader.place("range"), f"a ranger measures {span}; the first is taken for 0")
         laser = replace(laser, range_min=0.0)
     if abs(laser.fov) > 2 * math.pi + 1e-9:
         what = f"fov is {math.degrees(laser.fov):g} degrees; 360 is used, the most that is possible"
         units.note(reader.place("fov"), what)
         laser = replace(laser, fov=math.copysign(2 * math.pi, laser.fov))
     return [laser]
-
-
-def _camera(thing: Thing, base: Thing, units: Units) -> list[StageCamera]:
-    """Return the camera; none if it has no picture. Raises `StageError` for too many pixels."""
-    reader = thing.reader
-    width, height = (int(part) for part in reader.several("resolution", "ff", CAMERA_RESOLUTION))
-    if width * height > MAX_PIXELS:
-        most = f"a picture has {MAX_PIXELS} pixels at most"
-        raise StageError(reader.place("resolution"), f"resolution is [{width} {height}]; {most}", most)
-    horizontal, vertical = reader.several("fov", "ff", CAMERA_FOV)  # in degrees, whatever unit_angle says
-    near, far = reader.several("range", "ll", CAMERA_RANGE)
-    wrong = ""
-    if not (width >= 1 and height >= 1):
-        wrong = f"its resolution is [{width} {height}]"
-    elif not (0 < horizontal < 180 and 0 < vertical < 180):
-        wrong = f"its fov is [{horizontal:g} {vertical:g}] degrees"
-    elif not 0 < near < far:
-        wrong = f"its range is [{near:g} {far:g}]"
-    if wrong:
-        what = f"the camera {{}} has no picture, since {wrong}: it is left out"
-        units.note(thing.place, what, thing.name, left_out="a camera that has no picture")
-        return []
-    pan, tilt = reader.several("pantilt", "ff", (0.0, 0.0))
-    fov = (math.radians(horizontal), math.radians(vertical))
-    pose = moved(_on(thing, base), thing.origin)
-    return [
-        StageCamera(
-            pose,
-            base.at[2] + pose[2],
-            width,
-            height,
-            fov,
-            near,
-            far,
-            math.radians(pan),
-            math.radians(tilt),
-            thing.place,
-        )
-    ]

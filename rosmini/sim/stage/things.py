@@ -40,25 +40,20 @@ Pose4 = tuple[float, float, float, float]
 
 ORIGIN: Pose4 = (0.0, 0.0, 0.0, 0.0)
 
-SIZES = {
-    "ranger": (0.15, 0.15, 0.2),
-    "laser": (0.15, 0.15, 0.2),
-    "camera": (0.1, 0.07, 0.05),
-    "fiducial": (0.1, 0.1, 0.1),
-}
+SIZES = {"ranger": (0.15, 0.15, 0.2), "fiducial": (0.1, 0.1, 0.1)}
 SIZE = (0.4, 0.4, 1.0)
 """Size of models of other kinds [m]."""
 
-COLOURS = {"ranger": "#000080", "laser": "#000080", "camera": "black"}
+COLOURS = {"ranger": "#000080"}
 COLOUR = "red"
 
-BODILESS = ("ranger", "laser", "fiducial")
+BODILESS = ("ranger", "fiducial")
 """Kinds without a body, unless they have blocks."""
 
-SIMULATED = ("model", "position", "ranger", "laser", "camera")
+SIMULATED = ("model", "position", "ranger")
 LEFT_OUT = (
-    "actuator", "blinkenlight", "blobfinder", "bumper", "fiducial", "gripper", "lightindicator", "loadcell", "puck",
-    "speech", "wifi",
+    "actuator", "blinkenlight", "blobfinder", "bumper", "camera", "fiducial", "gripper", "laser", "lightindicator",
+    "loadcell", "puck", "speech", "wifi",
 )  # fmt: skip
 """Kinds of Stage that are not simulated here."""
 

@@ -1,7 +1,7 @@
 """Loads a Stage world file as a world with robots.
 
 Supported are include, define, units, `resolution`, `interval_sim`, `speedup`, `paused`, `quit_time`, and
-the models `model`, `position`, `ranger`, `laser` (of Stage 3) and `camera` with blocks, bitmaps and boundaries.
+the models `model`, `position` and `ranger` with blocks, bitmaps and boundaries.
 Models with `gripper_return 1` can be pushed; lasers see models with `obstacle_return 0`, and robots drive through them.
 The file is read as leniently as by Stage. `StageWorld.notes` lists everything that is left out or read differently,
 with file and line; an error in Stage is a `StageError` here, also with file and line.
@@ -45,8 +45,6 @@ KNOWN = {
     "model": (),
     "position": (*BASE, "drive", "localization", "localization_origin", "odom_error", "velocity_bounds"),
     "ranger": ("samples", "fov", "range"),
-    "laser": ("range_min", "range_max", "samples", "fov"),
-    "camera": ("resolution", "range", "fov", "pantilt"),
 }
 
 
@@ -120,7 +118,7 @@ class _World:
             robots=tuple(self.robots),
             interval=interval,
             speedup=speedup,
-            paused=self._paused(reader),
+            paused=reader.flag("paused", default=False),
             quit_time=reader.number("quit_time", 0.0, minimum=0.0),
             resolution=resolution,
             notes=(),
@@ -131,27 +129,11 @@ class _World:
 
     def _speedup(self, reader: Reader) -> float:
         speedup = reader.number("speedup", 1.0)
-        if speedup <= 0:
-            what = "a speedup of 0 or less is as fast as can be in Stage's window; here it is 1"
-            self.units.note(reader.place("speedup"), what)
-            return 1.0
-        if speedup != 1:
-            what = (
-                f"speedup: {speedup:g} s of this world, and of /clock, pass in one second of the graph, as in Stage's "
-                "window; a graph in simulated time is no faster by it, for it goes as fast as it can"
-            )
-            self.units.note(reader.place("speedup"), what)
-        return speedup
-
-    def _paused(self, reader: Reader) -> bool:
-        paused = reader.flag("paused", default=False)
-        if paused:
-            what = (
-                "paused lets time stand in Stage's window, until somebody presses p there; without a window it changes "
-                "nothing, and here neither"
-            )
-            self.units.note(reader.place("paused"), what)
-        return paused
+        if speedup > 0:
+            return speedup
+        what = "a speedup of 0 or less is as fast as can be in Stage's window; here it is 1"
+        self.units.note(reader.place("speedup"), what)
+        return 1.0
 
     def _add_model(self, thing: Thing) -> None:
         """Add a top-level model to the world."""
@@ -164,7 +146,7 @@ class _World:
             if each.kind == "position":
                 what = "the position {} is on a model, so it does not drive here; give it a place of its own"
                 self.units.note(each.place, what, each.name, left_out="a position on a model")
-            if each.kind in ("ranger", "laser", "camera"):
+            if each.kind == "ranger":
                 self.units.note(each.place, "{} is on no position: stageros does not find it", each.name)
         bodies = [each for each in thing.family() if each.body is not None]
         if thing.pushable and thing.solid:
@@ -182,9 +164,6 @@ class _World:
         if body.traced and solid(thing, blocks[0]).bottom <= 0 and not self.walls:
             corners = [placed(thing, each) for each in blocks]
             self.walls.append((thing, np.vstack([sides_of(loop) for loop in corners])))
-            if thing.seen < 0:
-                what = "ranger_return changes nothing for the first bitmap of a world: {} is seen by lasers"
-                self.units.note(thing.reader.place("ranger_return"), what, thing.name)
             blocks = ()
         else:
             blocks = self._filled(thing)
@@ -196,9 +175,6 @@ class _World:
         blocks: list[tuple[Thing, Block]] = []
         for each in bodies:
             if each.body is not None and self._has_effect(each):
-                if not each.solid:
-                    what = "{} is on a thing that can be pushed, so that robots bump into it, too"
-                    self.units.note(each.place, what, each.name)
                 blocks += [(each, one) for one in (*self._filled(each), *each.body.boundary)]
         if not blocks:
             return

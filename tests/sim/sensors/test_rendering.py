@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from rosmini.core.geometry.poses import compose
 from rosmini.sim.geometry.raycast import raycast
 from rosmini.sim.models import CameraModel
-from rosmini.sim.sensors.rendering import CameraError, camera_info, camera_noise, capture, depth, eye_of, look, render
-from rosmini.sim.sensors.scene import Scene
+from rosmini.sim.sensors.rendering import camera_info, camera_noise, develop, expose, eye_of, look
+from rosmini.sim.sensors.scene import Scene, parts_of
 from rosmini.sim.shapes import Box, Compound, Cylinder, Part, Polygon, Sphere
 from rosmini.sim.world import World
 from rosmini.sim.worlds import world
@@ -27,6 +27,20 @@ def part(shape, pose=(2.0, 0.0, 0.0), bottom=0.0, top=0.5, colour="blue"):
 
 def at(mount, **numbers):
     return CameraModel("camera", mount, 161, 121, 1.085595, **numbers)
+
+
+def scene_of(view):
+    if isinstance(view, World):
+        return Scene.walls(view.walls, view.wall_height, solid=view.solid) + Scene.of(parts_of(view.obstacles))
+    return view if isinstance(view, Scene) else Scene.of(view)
+
+
+def depth(camera, pose, view):
+    return expose(camera, pose, scene_of(view))[1]
+
+
+def render(camera, pose, view, noise=None):
+    return develop(expose(camera, pose, scene_of(view))[0], noise)
 
 
 def test_camera_info_has_the_numbers_that_gazebo_ros_writes():
@@ -78,7 +92,7 @@ def test_depth_is_what_rays_measure(x, y, theta):
     eye = eye_of(CAMERA, (x, y, theta))
     row = int(eye.lens.cy)
     assert row == eye.lens.cy
-    inverse, _ = look(eye, Scene.of_world(room))
+    inverse, _ = look(eye, scene_of(room))
     ex, ey, height = eye.position
     assert all(o.height > height for o in room.obstacles)
     sideways = (np.arange(eye.lens.width) - eye.lens.cx) / eye.lens.fx
@@ -110,7 +124,7 @@ def test_what_floats_is_looked_under():
     behind = part(Box(0.1, 3.0), (3.0, 0.0, 0.0), colour="orange")
     low = depth(at((0.0, 0.0, 0.1)), HERE, [table, behind])
     assert low[61, 81] == pytest.approx(2.95)
-    from_below, _ = capture(at((0.0, 0.0, 0.1), pitch=-0.2), HERE, [table])
+    from_below = render(at((0.0, 0.0, 0.1), pitch=-0.2), HERE, [table])
     assert (from_below[..., 2] > from_below[..., 0] + 50).any()
 
 
@@ -118,7 +132,6 @@ def test_far_is_infinite_and_what_is_too_near_is_not_seen():
     wall = part(Box(0.1, 3.0), (2.0, 0.0, 0.0), top=2.0)
     camera = at((0.0, 0.0, 0.5))
     assert depth(camera, HERE, [wall])[61, 81] == pytest.approx(1.95)
-    assert depth(camera, HERE, [wall], far=1.9)[61, 81] == math.inf
     assert depth(at((0.0, 0.0, 0.5), near=2.2), HERE, [wall])[61, 81] == math.inf
     assert depth(at((0.0, 0.0, 0.5), depth_far=1.9), HERE, [wall])[61, 81] == math.inf
 
@@ -181,11 +194,6 @@ def test_noise_is_of_the_stated_size_and_the_same_for_the_same_seed():
     assert np.std(noisy - clean) == pytest.approx(0.02 * 255, rel=0.05)
     np.testing.assert_array_equal(drawn, camera_noise(camera, np.random.default_rng(1)))
     assert camera_noise(CAMERA, np.random.default_rng(1)) is None
-
-
-def test_a_pose_that_is_not_finite_is_refused():
-    with pytest.raises(CameraError, match="finite"):
-        render(CAMERA, (math.nan, 0.0, 0.0), [])
 
 
 def test_a_hundred_thousand_walls_can_be_looked_at():

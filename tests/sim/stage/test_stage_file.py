@@ -364,25 +364,12 @@ def test_a_laser_looks_out_above_the_robot(world):
     assert back.height == pytest.approx(0.16)
 
 
-def test_stage_3_lasers_and_rings_of_sonars(world):
-    stage = world("position( laser( range_max 5 fov 180 samples 181 ) )\nposition( ranger( sensor( )\nsensor( ) ) )")
-    assert stage.robots[0].lasers[0].range_max == 5
-    assert stage.robots[0].lasers[0].fov == pytest.approx(math.pi)
+def test_cameras_are_left_out_and_of_a_ring_of_sonars_all_but_one(world):
+    stage = world("position( camera( ) )\nposition( ranger( sensor( )\nsensor( ) ) )")
+    assert stage.left_out == {"a camera": 1}
     sonar = stage.robots[1].lasers[0]
     assert (sonar.samples, sonar.fov, sonar.range_max) == (1, 0.1, 5)
     assert [re.search(r":(\d+):", note)[1] for note in stage.notes] == ["1", "3"]
-
-
-def test_cameras(world):
-    stage = world(
-        "position( size [1 1 0.5] camera( range [0.3 9] resolution [64 48] fov [60 40] pantilt [30 -10] pose [0.1 0 0 "
-        "90] ) )"
-    )
-    (camera,) = stage.robots[0].cameras
-    assert (camera.width, camera.height, camera.near, camera.far) == (64, 48, 0.3, 9)
-    assert camera.fov == pytest.approx((math.radians(60), math.radians(40)))
-    assert (camera.pan, camera.tilt) == pytest.approx((math.radians(30), math.radians(-10)))
-    assert camera.pose == pytest.approx((0.1, 0, 0.5, math.pi / 2))
 
 
 def test_bounds_and_odometry(world):
@@ -406,10 +393,6 @@ def test_bounds_and_odometry(world):
     [
         ("modle( )", "there is no model 'modle' in Stage, and none is defined before it is used; did you mean model?"),
         (robot("samples 1000000000"), "samples is 1000000000; a ranger has 100000"),
-        (
-            "position( camera( resolution [100000 100000] ) )",
-            "resolution is [100000 100000]; a picture has 16777216 pixels",
-        ),
         ('model( bitmap "nothing.png" )', 'there is no bitmap "nothing.png" in'),
         ('model( bitmap "text.png" )', "cannot be read: this is no image"),
         ("interval_sim 0", "interval_sim is 0; it must be more than 0"),
@@ -432,8 +415,6 @@ def test_what_is_not_possible_names_file_and_line(tmp_path, world, text, words):
         ('position( drive "differential" )', '"diff" is used'),
         ("position( drive 3 )", '"diff" is used'),
         ('position( localization "amcl" )', '"gps" is used'),
-        ("position( velocity_bounds [1 -1] )", "the speed ahead is from 1 to -1"),
-        ("position( wheelbase 0 )", "wheelbase is 0; 1 m is used"),
         ("position( ranger( ) )", "the ranger position:0.ranger:0 has no sensor( ... )"),
         (robot("range [5 1]"), "a ranger measures from 5 m to 1 m; the first is taken for 0"),
         (robot("range [0 -2]"), "a ranger of 1 samples up to -2 m"),
@@ -441,8 +422,6 @@ def test_what_is_not_possible_names_file_and_line(tmp_path, world, text, words):
         (robot("samples 0"), "a ranger of 0 samples"),
         (robot("samples 2.5"), "samples is 2.5; as in Stage it is cut to 2"),
         (robot("noise [-1]"), "noise is negative; 0 is used"),
-        ("position( camera( fov [200 3] ) )", "the camera position:0.camera:0 has no picture"),
-        ("position( camera( range [0 3] ) )", "its range is [0 3]"),
         ("model( size [1 0 1] )", "1 0 1 becomes 1 0.01 1"),
         ("model( size [1 -2 1] )", "1 -2 1 becomes 1 2 1"),
         ("model( pose [1 2 3 4 5] )", "pose has 5 numbers; only the first 4 count"),
