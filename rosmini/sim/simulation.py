@@ -227,14 +227,6 @@ class Simulation(ABC):
         """
         return show("simulation_3d", self, **options)
 
-    def view(self, **options: Any) -> Any:
-        """Return a live view of the running world, in which robots and obstacles can be dragged.
-
-        Options and their defaults:
-            title=None: a caption under the view, and the first line of its text form
-        """
-        return show("simulation_view", self, **options)
-
     def pad(self, robot: str = "", **options: Any) -> Any:
         """Return a pad for driving a robot, the first if none is named.
 
@@ -244,7 +236,6 @@ class Simulation(ABC):
             limits=None: maximum speeds and accelerations; None: those of the robot
             keys='': the key bindings; '': those of turtlebot3_teleop_key; or 'teleop_twist_keyboard'
             hold=False: True if a key must be held, like a dead man's switch
-            solid=False: True shows the robot in three dimensions, from behind, instead of the map
             title=None: a caption under the pad, and the first line of its text form
         """
         return show("teleop_pad", self, robot=robot and self._do(lambda: self._entity(robot)), **options)

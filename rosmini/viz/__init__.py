@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from rosmini.viz.scan_pictures import scan_picture
     from rosmini.viz.sequences import sequence_diagram
     from rosmini.viz.state_machine import action_states
-    from rosmini.viz.track_pictures import track_picture
     from rosmini.viz.world_pictures import world_picture
 
 __all__ = [
@@ -41,7 +40,6 @@ __all__ = [
     "rqt_graph",
     "scan_picture",
     "sequence_diagram",
-    "track_picture",
     "world_picture",
 ]
 
@@ -57,7 +55,6 @@ _LATER = {
     "rqt_bag": "rosmini.viz.rqt.bag",
     "scan_picture": "rosmini.viz.scan_pictures",
     "sequence_diagram": "rosmini.viz.sequences",
-    "track_picture": "rosmini.viz.track_pictures",
     "world_picture": "rosmini.viz.world_pictures",
 }
 

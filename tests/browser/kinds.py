@@ -23,7 +23,6 @@ from rosmini.viz import (
     rqt_graph,
     scan_picture,
     sequence_diagram,
-    track_picture,
     world_picture,
 )
 from rosmini.viz.rviz import Scene
@@ -120,7 +119,6 @@ KINDS = {
     "world": _world,
     "scan": lambda: scan_picture(1.0 + 0.5 * np.cos(np.radians(np.arange(360)))),
     "plot": _plot,
-    "track": lambda: track_picture(np.array([(0, 0), (1, 0.2), (1.5, 0.8), (0.8, 1.0)])),
     "graph": lambda: rqt_graph(SYSTEM),
     "frames": _frames,
     "sequence": lambda: sequence_diagram(
@@ -134,7 +132,7 @@ KINDS = {
     "own_figure": _own_figure,
     "rviz": _rviz,
     "grid": lambda: grid(
-        track_picture(np.array([(0, 0), (1, 1)]), width=320, title="a way"),
+        world_picture(world("room"), size=(320, 320), title="a world"),
         plot({"speed": ([0, 1, 2], [0, 2, 1])}, x="t [s]", y="v [m/s]", width=320, title="a plot"),
     ),
 }

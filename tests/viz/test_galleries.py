@@ -3,10 +3,10 @@
 import base64
 import xml.etree.ElementTree as ET
 
-import numpy as np
 import pytest
 
-from rosmini.viz import Picture, ViewError, grid, rqt_graph, scan_picture, track_picture
+from rosmini.sim.worlds import world
+from rosmini.viz import Picture, ViewError, grid, plot, rqt_graph, world_picture
 
 SYSTEM = [[["/chatter", ["/talker"]]], [["/chatter", ["/listener"]]], []]
 PNG = base64.b64decode(
@@ -18,8 +18,8 @@ TAG = "{http://www.w3.org/2000/svg}"
 @pytest.fixture
 def views():
     return (
-        scan_picture(np.ones(360), title="the scan"),
-        track_picture(np.array([(0, 0), (1, 1)]), title="the way"),
+        world_picture(world("room"), title="the room"),
+        plot({"speed": ([0, 1], [0, 1])}, x="t [s]", y="v [m/s]", title="the speed"),
         rqt_graph(SYSTEM),
     )
 
@@ -44,7 +44,7 @@ def test_the_picture_has_them_side_by_side_and_none_over_another(views):
         assert y + h <= height + 0.1
         for a, b, c, d in boxes[:i]:
             assert x >= a + c or a >= x + w or y >= b + d or b >= y + h
-    assert [node.text for node in root.findall(f"{TAG}text")] == ["the scan", "the way"]
+    assert [node.text for node in root.findall(f"{TAG}text")] == ["the room", "the speed"]
     assert boxes[0][1] == boxes[1][1] < boxes[2][1]
 
 
@@ -52,7 +52,7 @@ def test_a_page_gets_their_own_figures_with_their_captions(views):
     made = grid(*views, title="all <of> them")
     root = ET.fromstring(made.html)
     assert len(root.findall(".//figure")) == 3
-    assert [node.text for node in root.iter("figcaption")] == ["the scan", "the way", "all <of> them"]
+    assert [node.text for node in root.iter("figcaption")] == ["the room", "the speed", "all <of> them"]
 
 
 def test_what_cannot_stand_in_a_grid_is_refused(views):

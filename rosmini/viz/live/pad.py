@@ -62,8 +62,7 @@ class TeleopPad(LiveView):
     Args:
         driven: a simulator, stageros or gzserver, to drive and show its robot; turtlesim, to drive its turtle; or a
             graph, to show only the messages.
-        robot: name of the robot or turtle; by default the first. A robot without a laser is driven but not shown:
-            `view()` shows all.
+        robot: name of the robot or turtle; by default the first. A robot without a laser is driven but not shown.
         topic: the topic to publish on, resolved and remapped as by the simulation's node; by default the one that the
             robot subscribes to, and on a graph ``cmd_vel``.
         name: the name of the node.
@@ -73,8 +72,6 @@ class TeleopPad(LiveView):
             default for turtles, or `teleop_twist_keyboard`. (The last publishes each message
             once; the pad sends it ten times a second, as with `_repeat_rate:=10` there.)
         hold: True if a key must be held, as on a dead man's switch: the robot stops when it is released.
-        solid: True to show the robot in three dimensions, from behind, in place of the map; a browser without WebGL
-            still shows the map.
         title: caption under the pad, and first line of its text form.
 
     Raises:
@@ -92,7 +89,6 @@ class TeleopPad(LiveView):
         limits: Limits | None = None,
         keys: str = "",
         hold: bool = False,
-        solid: bool = False,
         title: str | None = None,
     ) -> None:
         self.shown_robot: DrivenRobot | None = None
@@ -100,7 +96,6 @@ class TeleopPad(LiveView):
         self.chosen = ""
         """Name of the one of `choices` that is driven."""
         self.hold = hold
-        self.solid = solid
         self._driven, self._limits = driven, limits
         namespace = "/"
         if isinstance(driven, Graph):

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from rosmini.viz.embed import MESHCAT, asset_path, embed, unpacking
+from rosmini.viz.embed import asset_path, embed
 from rosmini.viz.svg import element, escape
 
 from .key_maps import NAMES, key_map
@@ -15,7 +14,6 @@ from .teleop import table
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from .driven_robot import DrivenRobot
     from .pad import TeleopPad
 
 STEP = 0.005
@@ -25,8 +23,6 @@ TURTLE_STEP = 0.004
 """Time step of a turtle in a page [s]: both its 16 ms and the 0.1 s between messages are multiples of it."""
 
 SCRIPTS = ("rosmini-canvas.js", "rosmini-teleop.js", "rosmini-pad-style.js", "rosmini-pad-keys.js", "rosmini-pad.js")
-SOLID = "rosmini-meshcat.js"
-"""Script that shows a robot in three dimensions."""
 HEIGHT = 420
 
 
@@ -34,7 +30,7 @@ def scripts_of(pad: TeleopPad) -> tuple[str, ...]:
     """Return the scripts of a pad's page, in the order in which they run."""
     if pad.turtle is not None:
         return (*SCRIPTS, "rosmini-turtle.js")
-    return (*SCRIPTS, SOLID) if pad.solid else SCRIPTS
+    return SCRIPTS
 
 
 def pad_data(pad: TeleopPad) -> dict[str, Any]:
@@ -56,21 +52,7 @@ def pad_data(pad: TeleopPad) -> dict[str, Any]:
         x, y, theta = pad.shown_robot.sample_pose()
         pose = [round(x + 1e-8, 3) + 0.0, round(y + 1e-8, 3) + 0.0, round(theta + 1e-8, 4) + 0.0]
         data |= {"scene": pad.shown_robot.scene(), "pose": pose, "scan_rate": pad.shown_robot.model.laser.rate}
-        if pad.solid:
-            data["solid"] = _solid(pad.shown_robot)
     return data
-
-
-def _solid(shown_robot: DrivenRobot) -> dict[str, Any]:
-    """Return the world and the robot in three dimensions, in the form that the viewer's script reads."""
-    from rosmini.viz.meshcat.view import robot_3d
-
-    view = robot_3d(
-        replace(shown_robot.world, obstacles=(*shown_robot.fixed(), *shown_robot.moving())),
-        shown_robot.model,
-        shown_robot.sample_pose(),
-    )
-    return view.data
 
 
 def _maps(pad: TeleopPad) -> list[str]:
@@ -107,7 +89,6 @@ def static_html(pad: TeleopPad, *, caption: str | None = None) -> str:
         height=HEIGHT,
         fallback_html=_still(pad),
         caption=caption,
-        assets=[MESHCAT] if pad.solid else [],
     )
 
 
@@ -115,8 +96,6 @@ def static_html(pad: TeleopPad, *, caption: str | None = None) -> str:
 def module(names: Sequence[str], driver: str) -> str:
     """Return the scripts as one module for anywidget, in which `driver` talks to the kernel."""
     texts = [asset_path(name).read_text(encoding="utf-8") for name in names]
-    if SOLID in names:
-        texts.insert(0, f"globalThis.rosminiAsset = (() => {{{unpacking([MESHCAT])} return asset; }})();")
     return "\n".join([*texts, f"export default {{ render: globalThis.{driver}.render }};\n"])
 
 

@@ -6,9 +6,7 @@
    scene's own colour (or absent: that of the page), `labels` with words at points (or absent), and what only
    `rosmini-meshcat-player.js` reads, for scenes that move. Several runs side by side are {commands, duration, runs: [...]}: each has
    all the others, its `title`, and the `count` of its commands among those of all.
-   With `options.driven` the robot is under somebody's keys: that function is called with `put(pose)`, which moves it and
-   the camera behind it, and neither mouse nor keys turn the scene. `options.ready(viewer, frame)` is called for each viewer
-   that is made. `label(window, viewer, each)` and `find(viewer, path)` are for those who change a scene that is shown.
+   `options.ready(viewer, frame)` is called for each viewer that is made. `label(window, viewer, each)` and `find(viewer, path)` are for those who change a scene that is shown.
 
    The viewer runs in a frame, so its styles and its globals stay there. It is made when the reader comes near it, and
    again if the page takes the frame out and puts it back. Outside a click it leaves the wheel to the page. */
@@ -24,7 +22,6 @@
   };
   const STEP = Math.PI / 24;
   const ZOOM = 1.5; // of one press, as there
-  const [BEHIND, ABOVE, AHEAD] = [0.75, 0.55, 0.2]; // metres: where the camera is from a robot that is driven, and where it looks
   const ROBOT = "/meshcat/robots/robot";
 
   const bytes = (text) => Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
@@ -131,7 +128,6 @@
     });
     for (const pane of panes) {
       const { frame } = pane;
-      if (options.driven) frame.style.pointerEvents = "none"; // a click is for the keys around it
       frame.addEventListener("load", () => {
         if (frame.contentDocument.getElementById("pane")) start(pane, address, options, bar);
       });
@@ -160,8 +156,7 @@
       viewer.controls.minDistance = 0.15;
       viewer.controls.maxDistance = 60;
       viewer.controls.maxPolarAngle = Math.PI / 2 - 0.02; // not below the ground
-      if (options.driven) options.driven((pose) => put(viewer, pose));
-      else hands(pane, options, bar);
+      hands(pane, options, bar);
       paint(viewer, data);
       bar?.begin(pane);
       frame.dataset.ready = "";
@@ -264,18 +259,6 @@
       controls.target.y + reach * Math.cos(phi),
       controls.target.z + reach * Math.sin(phi) * Math.cos(theta),
     );
-    viewer.set_dirty();
-  }
-
-  /* The robot at a pose (x, y [m], heading [rad]), and the camera behind and above it. */
-  function put(viewer, [x, y, heading]) {
-    const robot = find(viewer, ROBOT);
-    robot.position.set(x, y, robot.position.z);
-    robot.rotation.set(0, 0, heading);
-    const root = find(viewer, "/meshcat").position; // z is up in it, y in the camera's frame
-    const [ahead, aside] = [Math.cos(heading), Math.sin(heading)];
-    viewer.controls.target.set(x + root.x + AHEAD * ahead, 0.1, -(y + root.y + AHEAD * aside));
-    viewer.camera.position.set(x + root.x - BEHIND * ahead, ABOVE, -(y + root.y - BEHIND * aside));
     viewer.set_dirty();
   }
 

@@ -4,10 +4,10 @@
    rosmini-pad-style.js and rosmini-pad-keys.js before it.
 
      mount(host, data)              a pad that drives by itself, in a page without a kernel
-     new Page(host, data, driver, asset)   a pad before another driver: rosmini-pad-kernel.js has one
+     new Page(host, data, driver)   a pad before another driver: rosmini-pad-kernel.js has one
 
 
-   `data` is what `rosmini.viz.live.page` makes: {maps, keys, hold, topic, title, scene, pose, step, scan_rate, solid?}; without a robot
+   `data` is what `rosmini.viz.live.page` makes: {maps, keys, hold, topic, title, scene, pose, step, scan_rate}; without a robot
    `scene` and `pose` are null, and only the messages are shown.
 
    A driver is what stands behind the page: press(key), steer(linear, angular), use(map), choose(name), leave(), reset(), close(), and `state`, which the page draws whenever
@@ -21,7 +21,6 @@
   const REPEAT_MS = 100;
   const SPEAK_AFTER_MS = 900; // so long without a key before the status is spoken: a screen reader would fall behind
   const STEER_MS = 100; // between two messages of a gamepad that says the same
-  const SOLID_HEIGHT = 360; // of the view in three dimensions [px]
   const TRAIL_STEP = 0.02; // metres
   const TRAIL_JUMP = 0.3; // a longer way between two points was not driven
   const TRAIL_POINTS = 3000;
@@ -53,9 +52,8 @@
   }
 
   class Page {
-    constructor(host, data, driver, asset) {
+    constructor(host, data, driver) {
       this.data = data;
-      this.asset = asset;
       this.driver = driver;
       this.map = data.maps.find(({ name }) => name === data.keys);
       this.down = new Map(); // buttons that are held, and their timers
@@ -67,7 +65,6 @@
       this.unwatch = globalThis.rosminiCanvas.watch(data.scene || data.turtle ? this.canvas : this.stage, () => { this.fit(); this.draw(); });
       driver.changed = () => this.request();
       this.draw();
-      if (this.room) this.enter();
     }
 
     // -- building ---------------------------------------------------------------------------------------------------
@@ -93,7 +90,6 @@
       );
       const sight = element("div", { class: "rp-sight" }, this.pill, this.hint);
       if (data.scene || data.turtle) sight.prepend(this.canvas);
-      if (data.solid) sight.prepend(this.room = element("div", { class: "rp-room" }));
       const actions = element("div", { class: "rp-actions" }, this.startButton);
       if (data.scene || data.turtle) actions.append(this.resetButton);
       if (data.turtle) {
@@ -305,15 +301,6 @@
       }
     }
 
-    /* The robot in three dimensions in the place of the map, where the browser can; else the map stays. */
-    enter() {
-      const { solid, title } = this.data;
-      const show = (moving) => { this.room.hidden = !moving; this.canvas.hidden = moving; };
-      const driven = (put) => { this.put = put; this.draw(); };
-      const options = { title, alt: title, height: SOLID_HEIGHT, asset: this.asset, still: this.canvas, show, driven };
-      globalThis.rosminiMeshcat.mount(this.room, solid, options).then((shown) => shown || show(false), () => show(false));
-    }
-
     request() {
       if (this.asked) return;
       this.asked = true;
@@ -333,7 +320,7 @@
         }
         scaleBar(this.view);
         this.readings.hidden = !state.pose;
-        if (state.pose) { this.read(state); this.put?.(state.pose); }
+        if (state.pose) { this.read(state); }
       }
       if (this.paper && state.window) {
         for (const window of state.windows?.splice(0) ?? []) this.paper.paint(window);
@@ -487,8 +474,8 @@
     }
   }
 
-  function mount(host, data, options) {
-    return new Page(host, data, new OwnRobot(data), options?.asset);
+  function mount(host, data) {
+    return new Page(host, data, new OwnRobot(data));
   }
 
   globalThis.rosminiPad = { Page, OwnRobot, mount, extend };

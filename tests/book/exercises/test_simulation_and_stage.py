@@ -37,13 +37,12 @@ def test_the_watchdog_and_the_bounds_are_those_of_the_text(prose, tmp_path):
     assert robot.localization == "gps"
 
 
-def test_a_robot_is_dragged_in_the_view_and_only_gps_notices(prose, tmp_path):
-    assert "`stage.view()`" in prose
+def test_only_gps_notices_that_a_robot_is_dragged(tmp_path):
     for kind, believed in (("gps", (1.0, -2.0)), ("odom", (0.0, 0.0))):
         (tmp_path / "one.world").write_text(f'position( pose [-3 0 0 0] localization "{kind}" )', encoding="utf-8")
         with Graph() as graph:
             stage = rosrun("stage_ros", "stageros", tmp_path / "one.world", graph=graph).instance()
-            stage.view().drag("robot_0", (1.0, -2.0))
+            stage.drag("robot_0", (1.0, -2.0, 0.0))
             reckoning = stage.robot().base.reckoning
             assert stage.truth()[:2] == pytest.approx((1.0, -2.0))
             assert reckoning.pose(stage.truth())[:2] == pytest.approx(believed)

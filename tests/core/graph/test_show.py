@@ -9,9 +9,8 @@ from importlib.metadata import entry_points
 import pytest
 
 from rosmini.viz.live.pad import TeleopPad
-from rosmini.viz.live.simulation_view import SimulationView
 
-DRIVEN = {"show3d": "simulation_3d", "view": "simulation_view", "pad": "teleop_pad"}
+DRIVEN = {"show3d": "simulation_3d", "pad": "teleop_pad"}
 SHOWN = {
     "rosmini.ros.bag:Bag": {"show": "bag"},
     "rosmini.core.graph.observers.console:Console": {"show": "log_console"},
@@ -32,7 +31,7 @@ SHOWN = {
     "rosmini.sim.robot_state_publisher.node:RobotStatePublisher": {"show": "robot"},
     "rosmini.core.tf:Buffer": {"show": "tf_tree"},
 }
-WIDGETS = {"simulation_view": SimulationView, "teleop_pad": TeleopPad}
+WIDGETS = {"teleop_pad": TeleopPad}
 
 
 @pytest.mark.parametrize(
