@@ -62,7 +62,8 @@ def is_legal_base_name(name: str | None) -> bool:
 def split_resource_name(name: str, package: str | None = None) -> tuple[str, str]:
     """Split a package resource name: ``"std_msgs/String"`` is ``("std_msgs", "String")``.
 
-    A name without a package belongs to ``package``, if given. Raises ``IllegalName``.
+    A name without a package belongs to ``package``. Raises ``IllegalName`` for any other name that is not a package and
+    a name, separated by one slash.
     """
     full = f"{package}/{name}" if package is not None and isinstance(name, str) and "/" not in name else name
     match = PACKAGE_RESOURCE.fullmatch(full) if isinstance(full, str) else None

@@ -84,7 +84,7 @@ def simplified_indices(fixed: Sequence[int], gaps: Callable[[int, int], Floats],
 
 
 def crossing_sides(outline: Floats) -> tuple[int, int] | None:
-    """Return the indices of the first two sides of an outline that cross, or None; side i begins at corner i."""
+    """Return the indices of the first two sides of an outline (n, 2) that cross, or None; side i begins at corner i."""
     count = len(outline)
     ends = np.roll(outline, -1, axis=0)
     for first in range(count):
@@ -101,7 +101,7 @@ def crossing_sides(outline: Floats) -> tuple[int, int] | None:
 
 
 def convex_parts(outline: Floats) -> list[Floats]:
-    """Split a counter-clockwise polygon into a small, not always minimal, number of convex polygons.
+    """Return a small, not always minimal, number of convex polygons that make up a counter-clockwise polygon (n, 2).
 
     Triangles are cut off at convex corners (Meisters, Polygons have ears, 1975), and then joined again
     across every side that is not needed (Hertel and Mehlhorn, Fast triangulation of simple polygons, 1983).

@@ -58,7 +58,10 @@ def inverse(pose: Pose | Floats) -> Pose | Floats:
 
 
 def transform_points(pose: Pose | Floats, points: ArrayLike) -> Floats:
-    """Return the points (..., 2), given in the frame of `pose` or of each pose (..., 3), in its parent frame [m]."""
+    """Return the points (..., 2), given in the frame of `pose` or of each pose (..., 3), in its parent frame [m].
+
+    Raises `GeometryError` if the points or poses have other shapes.
+    """
     array = np.asarray(points, dtype=np.float64)
     if array.ndim == 0 or array.shape[-1] != 2:
         msg = f"points are an array (..., 2) of x and y, not {array.shape}"

@@ -135,10 +135,10 @@ class Rate:
         return self._last + self._period - now
 
     def sleep(self) -> None:
-        """Sleep until the end of this cycle. If that was more than two periods ago, start a new cycle now.
+        """Sleep until the end of this cycle; if it ended more than two periods ago, start the next cycle now.
 
         Raises ``ROSInterruptException`` if the node shuts down, and ``ROSTimeMovedBackwardsException`` if its clock
-        jumps back.
+        jumps back, unless the rate was made with ``reset``.
         """
         node = self._node
         clock = node.clock

@@ -158,7 +158,8 @@ class MasterProxy:
     def insist(self, method: str, *arguments: Any, warn: Callable[[str], None]) -> Triple:
         """Return the Master's response as :meth:`call`, but keep trying until there is one, and call ``warn`` once.
 
-        Raises ``ROSInterruptException`` if the caller ends meanwhile.
+        Raises ``ROSInterruptException`` if the caller ends meanwhile, and ``MasterUnreachable`` if the Master's port
+        does not keep trying.
         """
         port = self._graph.master
         if port.is_local:

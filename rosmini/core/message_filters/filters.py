@@ -135,7 +135,10 @@ class Cache(StampingFilter):
         self.incoming_connection = f.registerCallback(self.add)
 
     def add(self, msg: Any) -> None:
-        """Store a message, drop the oldest one if the cache is full, and pass the message on."""
+        """Store a message, drop the oldest one if the cache is full, and pass the message on.
+
+        A message without a header is dropped, unless `allow_headerless` was given.
+        """
         stamp = self._stamp(msg)
         if stamp is not None:
             self.cache_times.append(type(stamp)(stamp.secs, stamp.nsecs))

@@ -134,7 +134,7 @@ class LikelihoodField:
 def scores(
     table: Any, outside: float, left: float, low: float, per_metre: float, poses: Any, ends: Any, sums: Any
 ) -> None:
-    """Compute `LikelihoodField.sums` with scalar loops."""
+    """Write into `sums` (n,) what `LikelihoodField.sums` returns, computed with scalar loops."""
     height, width = table.shape
     for n in range(poses.shape[0]):
         cos, sin = math.cos(poses[n, 2]), math.sin(poses[n, 2])

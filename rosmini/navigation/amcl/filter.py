@@ -141,7 +141,7 @@ class ParticleFilter:
     # -- resampling ----------------------------------------------------------------------------------------------
 
     def limit(self, bins: Ints) -> Ints:
-        """Return the required number of particles for each number of occupied histogram cells."""
+        """Return the required number of particles for each number of occupied histogram cells in `bins` (n,)."""
         least = np.maximum(bins - 1, 1).astype(float)
         part = 2 / (9 * least)
         root = 1 - part + np.sqrt(part) * self.quantile
@@ -248,7 +248,10 @@ def touching_pairs(unique: Ints) -> tuple[Ints, Ints]:
 
 
 def cluster_of(particles: Floats, weights: Floats) -> Cluster:
-    """Return the weight, weighted mean and covariance of the particles; the variance of the heading is circular."""
+    """Return the total weight, and the weighted mean and covariance, of particles (n, 3) with `weights` (n,).
+
+    The variance of the heading is circular.
+    """
     weight = float(weights.sum())
     shares = weights / weight if weight > 0 else np.full(len(weights), 1 / len(weights))
     xs, ys, headings = particles.T

@@ -84,7 +84,7 @@ class LaserModel:
     ) -> Floats:
         """Return the log-likelihood (n,) of a scan for each of the particles (n, 3), up to a constant.
 
-        `skip` applies only when the filter has `converged`.
+        `skip` applies only when the filter has `converged`. Raises `RosminiError` if the laser model is unknown.
         """
         if self.kind not in _MODELS:
             hint = nearest(self.kind, _MODELS)

@@ -53,7 +53,7 @@ def sample_motion_model(
 
 
 def _diff(particles: Floats, motion: Pose, alphas: Sequence[float], noise: Floats, *, corrected: bool) -> Floats:
-    """Sample a rotation, a translation and a second rotation, for a robot with differential drive."""
+    """Return the particles (n, 3) after a sampled rotation, translation and second rotation (differential drive)."""
     x, y, turn = motion
     distance = math.hypot(x, y)
     first = 0.0 if distance < MIN_DISTANCE else math.atan2(y, x)
@@ -78,7 +78,7 @@ def _diff(particles: Floats, motion: Pose, alphas: Sequence[float], noise: Float
 
 
 def _omni(particles: Floats, motion: Pose, alphas: Sequence[float], noise: Floats, *, corrected: bool) -> Floats:
-    """Sample a translation in any direction and a rotation, for an omnidirectional robot."""
+    """Return the particles (n, 3) after a sampled translation in any direction and rotation (omnidirectional drive)."""
     x, y, turn = motion
     distance = math.hypot(x, y)
     a1, a2, a3, a4, a5 = alphas

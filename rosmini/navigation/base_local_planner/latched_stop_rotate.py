@@ -41,7 +41,7 @@ class LatchedStopRotate:
         return False
 
     def is_goal_reached(self, pose: Pose, velocity: Floats, goal: Pose, limits: LocalPlannerLimits) -> bool:
-        """Return whether the robot has reached position and heading and has stopped."""
+        """Return whether the robot, moving at `velocity` (3,), has reached position and heading and has stopped."""
         if not ((self.latch and self.reached) or distance_to_goal(pose, goal) <= limits.xy_goal_tolerance):
             return False
         self.reached = self.reached or self.latch
@@ -85,7 +85,10 @@ def reachable_turn_speed(speed: float, turn: float, now: float, acceleration: fl
 
 
 def checked(command: Floats, why_not: Check, text: str) -> Floats:
-    """Return the command if it is allowed. Raises `ControlFailure`, with a message that starts with `text`."""
+    """Return the command (3,) if `why_not(command)` returns no reason against it.
+
+    Raises `ControlFailure` otherwise, with a message that consists of `text`, the command and the reason.
+    """
     reason = why_not(command)
     if not reason:
         return command

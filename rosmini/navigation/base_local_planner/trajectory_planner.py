@@ -199,7 +199,10 @@ class TrajectoryPlanner:
         return self._scored(grid, pose, velocity, velocities)
 
     def window(self, pose: Pose, velocity: Floats) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Return the lowest and the highest velocities to try, each as (ahead [m/s], turn [rad/s])."""
+        """Return the lowest and the highest velocities to try, each as (ahead [m/s], turn [rad/s]).
+
+        `velocity` (3,) is the robot's current velocity.
+        """
         p = self.parameters
         span = self.sim_period if p.dwa else p.sim_time
         fastest = p.max_vel_x
@@ -212,7 +215,10 @@ class TrajectoryPlanner:
         return (low, right), (high, left)
 
     def _ahead(self, speeds: Floats, turns: Floats) -> Floats:
-        """Return straight drives and all turns but the last for each speed; if holonomic, also two sideways drives."""
+        """Return forward commands (n, 3): each speed with no turn, and with all turns but the last.
+
+        For a holonomic robot two diagonal commands are added.
+        """
         angles = np.concatenate([[0.0], turns[:-1]])
         grid = np.stack(np.meshgrid(speeds, [0.0], angles, indexing="ij"), axis=-1).reshape(-1, 3)
         if not self.parameters.holonomic_robot:
@@ -308,7 +314,7 @@ class TrajectoryPlanner:
 
 
 def evenly(low: float, high: float, count: int) -> Floats:
-    """Return `count` evenly spaced values from `low` to `high`; with a count of 1, only `low`."""
+    """Return `count` evenly spaced values (count,) from `low` to `high`; with a count of 1, only `low`."""
     if count == 1:
         return np.array([low])
     return np.asarray(low + (high - low) / (count - 1) * np.arange(count))

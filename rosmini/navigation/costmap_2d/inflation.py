@@ -33,7 +33,7 @@ def cell_distance(distance: float, resolution: float) -> int:
 
 
 def cost_at(distance: float, inscribed_radius: float, cost_scaling_factor: float) -> int:
-    """Return the cost at a distance [m] from the nearest lethal cell, at most the inflation radius."""
+    """Return the cost at a distance [m] from the nearest lethal cell, without regard to the inflation radius."""
     if distance == 0:
         return LETHAL_OBSTACLE
     if distance <= inscribed_radius:

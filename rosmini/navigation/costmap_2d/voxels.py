@@ -25,7 +25,7 @@ UNKNOWN = (1 << BITS) - 1
 
 @cache
 def _counts() -> NDArray[np.uint8]:
-    """Return the number of set bits for each 16-bit integer."""
+    """Return the number of set bits for each 16-bit integer (65536,)."""
     return np.array([number.bit_count() for number in range(1 << BITS)], dtype=np.uint8)
 
 

@@ -166,7 +166,7 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
         np.copyto(master, mine, where=(master != LETHAL_OBSTACLE) & ((mine == LETHAL_OBSTACLE) | (mine > master)))
 
     def _draw(self, boundary: Floats) -> None:
-        """Draw the edges as obstacles; vertices outside the costmap are moved to its edge."""
+        """Draw the edges of `boundary` (n, 2) [m] as obstacles; vertices outside the costmap are moved to its edge."""
         self.costs[...] = self.grid.default
         cells = [self.grid.world_to_map_clamped(x, y) for x, y in boundary.tolist()]
         for (x0, y0), (x1, y1) in zip(cells, [*cells[1:], cells[0]], strict=True):

@@ -135,7 +135,10 @@ def _groups(costs: NDArray[np.uint8], start: Ints) -> Iterator[Ints]:
 
 
 def _reached_unknown(padded: NDArray[np.uint8], start: int) -> list[int]:
-    """Return the unknown cells next to those that a breadth-first search reaches, in order and with duplicates."""
+    """Return the unknown cells next to the passable ones that a breadth-first search from `start` reaches.
+
+    They are in the order of the search, with duplicates. Cells are indices into `padded` (h, w), row by row.
+    """
     costs = padded.ravel()
     unknown, is_open = costs == NO_INFORMATION, costs < INSCRIBED_INFLATED_OBSTACLE
     steps = np.array([-1, 1, -padded.shape[1], padded.shape[1]])

@@ -17,7 +17,7 @@ from rosmini.navigation.navfn.wave import HIGH, interpolated
 
 
 def push(heap: NDArray[np.int32], ranks: NDArray[np.float32], size: int, cell: int, rank: float) -> None:
-    """Insert a cell into a heap of `size` cells, in place; the cell with the lowest rank is first."""
+    """Insert a cell into a heap of `size` cells and their ranks, in place; the cell with the lowest rank is first."""
     at = size
     while at > 0:
         above = (at - 1) // 2

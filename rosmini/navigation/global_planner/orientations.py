@@ -43,7 +43,7 @@ def orient(poses: Poses, mode: int, start_yaw: float, window: int = 1) -> Poses:
 
 
 def _path_directions(poses: Poses, window: int) -> NDArray[np.float64]:
-    """Return the path's direction at each point, between the points `window` before and `window` after it."""
+    """Return the path's direction (n,) [rad] at each point: from the point `window` before to that `window` after."""
     index = np.arange(len(poses))
     before = np.maximum(0, index - window)
     behind = np.minimum(len(poses) - 1, index + window)
@@ -52,7 +52,7 @@ def _path_directions(poses: Poses, window: int) -> NDArray[np.float64]:
 
 
 def _straight_from(poses: Poses) -> int:
-    """Return the first point of the last part on which the direction differs by at most 0.35 rad."""
+    """Return the index at which the path's last straight part begins: headings within 0.35 rad of the last."""
     index = len(poses) - 3
     if index <= 0:
         return 0

@@ -64,7 +64,7 @@ def lowest_around(potential: NDArray[np.float32], n: int, width: int) -> int:
 
 
 def unreached_beside(potential: NDArray[np.float32], n: int, m: int, width: int) -> int:
-    """Return how many of the two cells beside a diagonal step from `n` to `m` are unreached; 0 for other steps."""
+    """Return how many of the two cells beside a diagonal step from cell `n` to `m` are unreached; 0 for other steps."""
     row = 0
     if m - n > 1:
         row = width

@@ -257,7 +257,11 @@ class WaveSearch(Search):
         quadratic: bool = True,
         grid_path: bool = False,
     ) -> None:
-        """Prepare the search. `threshold` and `rise` are those of `wave`; `full` continues after reaching the goal."""
+        """Prepare the search. With `full` it continues after reaching the goal.
+
+        `heuristic` is that of `wave`. The first threshold of the wave is `threshold`, plus `heuristic` for each cell of
+        distance from start to goal; `rise` is its increment.
+        """
         super().__init__(costs, table, start, goal, quadratic=quadratic, grid_path=grid_path)
         self._blocks = np.empty(3 * self.costs.size, dtype=np.int32)
         self._pending = np.zeros(self.costs.size, dtype=np.uint8)
@@ -328,7 +332,8 @@ class NavfnSearch(WaveSearch):
     ) -> None:
         """Prepare a search by Dijkstra's algorithm or A*.
 
-        `full` continues after reaching the goal. `outline` makes the outermost cells lethal, as in the original.
+        With `full` it continues after reaching the goal. With `outline`, as in the original, the outermost cells are
+        lethal.
 
         Raises `OutsideMap` if start or goal is outside the grid.
         """
@@ -365,7 +370,7 @@ def navfn_table(allow_unknown: bool) -> NDArray[np.float32]:
 
 
 def outlined(costs: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """Return a copy whose outermost cells are lethal."""
+    """Return a copy of costs (h, w) whose outermost cells are lethal."""
     made = np.array(costs, dtype=np.uint8, order="C")
     made[[0, -1], :] = made[:, [0, -1]] = LETHAL_OBSTACLE
     return made

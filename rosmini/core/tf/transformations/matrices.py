@@ -148,7 +148,7 @@ def concatenate_matrices(*matrices: ArrayLike) -> Floats:
 
 
 def is_same_transform(matrix0: ArrayLike, matrix1: ArrayLike) -> bool:
-    """Return whether two matrices are equal up to a factor."""
+    """Return whether two matrices (4, 4) are equal up to a factor."""
     first = np.array(matrix0, dtype=np.float64)
     second = np.array(matrix1, dtype=np.float64)
     return bool(np.allclose(first / first[3, 3], second / second[3, 3]))

@@ -43,7 +43,7 @@ def compose_matrix(
 
 
 def decompose_matrix(matrix: ArrayLike) -> tuple[Floats, list[float], list[float], Floats, Floats]:
-    """Return scale, shear, angles, translation and perspective, as for `compose_matrix`.
+    """Return scale, shear, angles, translation and perspective of a matrix (4, 4), as for `compose_matrix`.
 
     Raises `ValueError` if the matrix is singular.
     """

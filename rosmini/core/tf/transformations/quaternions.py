@@ -19,7 +19,7 @@ def _four(quaternion: ArrayLike) -> Floats:
 
 
 def quaternion_multiply(quaternion1: ArrayLike, quaternion0: ArrayLike) -> Floats:
-    """Return the Hamilton product: `quaternion0` is applied first."""
+    """Return the Hamilton product of two quaternions (4,): the rotation `quaternion0`, then `quaternion1`."""
     x1, y1, z1, w1 = _four(quaternion1)
     x0, y0, z0, w0 = _four(quaternion0)
     return np.array(
@@ -33,13 +33,13 @@ def quaternion_multiply(quaternion1: ArrayLike, quaternion0: ArrayLike) -> Float
 
 
 def quaternion_conjugate(quaternion: ArrayLike) -> Floats:
-    """Return the conjugate, which is the inverse rotation if the quaternion has length 1."""
+    """Return the conjugate of a quaternion (4,), which is the inverse rotation if the quaternion has length 1."""
     x, y, z, w = _four(quaternion)
     return np.array([-x, -y, -z, w])
 
 
 def quaternion_inverse(quaternion: ArrayLike) -> Floats:
-    """Return the inverse quaternion, also if its length is not 1."""
+    """Return the inverse of a quaternion (4,) of any length but 0."""
     four = _four(quaternion)
     result: Floats = quaternion_conjugate(four) / scalar_product(four, four)
     return result
@@ -121,9 +121,9 @@ def quaternion_slerp(
 
 
 def random_quaternion(rand: ArrayLike | None = None) -> Floats:
-    """Return a uniformly distributed random quaternion (Shoemake, 1992), made from three numbers in [0, 1).
+    """Return a uniformly distributed random quaternion (4,) (Shoemake, 1992), made from three numbers in [0, 1).
 
-    By default these numbers are random, and differ from run to run.
+    These are `rand`; by default they are random, and differ from run to run.
     """
     u, v, w = np.random.default_rng().random(3) if rand is None else np.asarray(rand, dtype=np.float64)
     a, b = math.sqrt(1 - u), math.sqrt(u)
