@@ -139,7 +139,7 @@ def join(ns: str, name: str) -> str:
 
 
 def canonicalize(name: str) -> str:
-    """Remove double and trailing slashes: ``/a//b/`` becomes ``/a/b``."""
+    """Return a name without double and trailing slashes: ``/a/b`` for ``/a//b/``."""
     if not name or name == "/":
         return name
     parts = "/".join(part for part in name.split("/") if part)

@@ -153,7 +153,10 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
             self._request_map()
 
     def update_bounds(self, robot: Pose, bounds: Bounds) -> None:
-        """Include the whole map if it is new, and always in a rolling window."""
+        """Extend `bounds` to the part of the map that has changed, or to the whole map if there are extra bounds.
+
+        In a rolling window the bounds become unlimited.
+        """
         del robot
         extra = self.use_extra_bounds(bounds)
         if self._received and (self.layered.is_rolling or self._changed is not None or extra):

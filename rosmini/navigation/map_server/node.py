@@ -141,7 +141,7 @@ def _path_of(address: str) -> str:
 
 
 def _error_text(error: MapError, path: str) -> str:
-    """Return map_server's message, so that a search for it succeeds, followed by our explanation."""
+    """Return the message of ROS's map_server, which users may search for, followed by the text of `error`."""
     said = str(error)
     if isinstance(error, MapMissing):
         return f"Map_server could not open {path}. {said[:1].upper()}{said[1:]}"
