@@ -214,8 +214,8 @@ def nearest(name: str, candidates: Iterable[str], limit: int = 3) -> str:
         return ""
     from difflib import SequenceMatcher  # only needed for error messages
 
-    wanted = name.lower()
-    wanted_base = wanted.rpartition("/")[2]
+    target = name.lower()
+    target_base = target.rpartition("/")[2]
 
     def ratio(one: str, other: str) -> float:
         """Return the ratio of `SequenceMatcher`, or 0 if the letters in common show that it is below 0.7."""
@@ -229,7 +229,7 @@ def nearest(name: str, candidates: Iterable[str], limit: int = 3) -> str:
 
     def likeness(candidate: str) -> float:
         folded = candidate.lower()
-        return max(ratio(wanted, folded), 0.95 * ratio(wanted_base, folded.rpartition("/")[2]))
+        return max(ratio(target, folded), 0.95 * ratio(target_base, folded.rpartition("/")[2]))
 
     known = {each for each in candidates if each != name and len(each) <= _LONGEST_NAME}
     ranked = sorted((-likeness(candidate), candidate) for candidate in known)

@@ -71,10 +71,10 @@ class Element:
         """Return the children with one of these tags, in order."""
         return [child for child in self.children if child.tag in tags]
 
-    def find(self, way: str) -> Element | None:
+    def find(self, path: str) -> Element | None:
         """Return the element at a path of tags (``"inertial/mass"``), or None; at each level the first one counts."""
         at = self
-        for tag in way.split("/"):
+        for tag in path.split("/"):
             found = next((child for child in at.children if child.tag == tag), None)
             if found is None:
                 return None
@@ -96,9 +96,9 @@ class Element:
         for child in self.children:
             yield from child.walk()
 
-    def word(self, way: str, default: str = "") -> str:
+    def word(self, path: str, default: str = "") -> str:
         """Return the text of the element that `find` returns, or `default` if it is missing or empty."""
-        found = self.find(way)
+        found = self.find(path)
         return (found.text if found is not None else "") or default
 
     # ---- attributes ----

@@ -60,16 +60,16 @@ class Plugin:
 
         Raises `PluginError`, with similar names and a list of all, if there is none or if it cannot be imported.
         """
-        wanted = _canonical(name)
-        if wanted not in cls._plugins:
-            whole_package = f"{wanted.partition('/')[0]}/*"
+        canonical = _canonical(name)
+        if canonical not in cls._plugins:
+            whole_package = f"{canonical.partition('/')[0]}/*"
             for entry in entry_points(group=GROUP):
-                if _canonical(entry.name) in (wanted, whole_package):
+                if _canonical(entry.name) in (canonical, whole_package):
                     _load(entry)
-        found = cls._plugins.get(wanted)
+        found = cls._plugins.get(canonical)
         if found is None or not issubclass(found, cls):
             names = cls.names()
-            hint = nearest(wanted, names)
+            hint = nearest(canonical, names)
             listed = f"there are {', '.join(names)}" if names else "there is none at all"
             raise PluginError(f"there is no {cls.__name__} {name!r}; {hint + ' ' if hint else ''}{listed}")
         return found

@@ -187,7 +187,7 @@ class ActionClient:
         self._goal = node.publisher(f"{ns}/goal", types.action_goal, queue_size=out)
         self._cancel = node.publisher(f"{ns}/cancel", goal_id, queue_size=out)
         hear = partial(node.subscriber, queue_size=into, numpy=numpy)
-        self._status = hear(f"{ns}/status", statuses, self._hear, on_disconnect=self._disconnected)
+        self._status = hear(f"{ns}/status", statuses, self._on_statuses, on_disconnect=self._disconnected)
         self._result = hear(f"{ns}/result", types.action_result, self._finish)
         self._feedback = hear(f"{ns}/feedback", types.action_feedback, self._feed)
 
@@ -213,10 +213,10 @@ class ActionClient:
         return self.node.scheduler.run_in_scheduler(lambda: self._send(goal, transition_cb, feedback_cb))
 
     def _send(self, goal: Any, *callbacks: Any) -> ClientGoalHandle:
-        wanted = self.types.goal
-        if not isinstance(goal, wanted):
+        goal_class = self.types.goal
+        if not isinstance(goal, goal_class):
             given = getattr(goal, "_type", type(goal).__name__)
-            raise ActionException(f"{self.ns} takes goals of type {wanted._type}, not {given}")
+            raise ActionException(f"{self.ns} takes goals of type {goal_class._type}, not {given}")
         now = self.node.now()
         action_goal = self.types.action_goal(goal=goal)
         action_goal.header.stamp = now
@@ -292,14 +292,14 @@ class ActionClient:
     def _is_counted(self) -> bool:
         """Return whether the server's node reports that it sends to this client; True if it does not respond."""
         node = self.node
-        wanted = {end.topic for end in (self._status, self._result, self._feedback)}
+        topics = {end.topic for end in (self._status, self._result, self._feedback)}
         links = node.subscriptions[self._status.topic].connections.values()
         uri = next(link.uri for link in links if link.peer == self._server)
         try:
             code, _, rows = node.graph.transport.call(uri, "getBusInfo", node.name)
         except TransportException:
             return True  # the node has gone or does not respond: there is nothing to wait for
-        return code != 1 or wanted <= {row[4] for row in rows if row[1:3] == [node.name, "o"]}
+        return code != 1 or topics <= {row[4] for row in rows if row[1:3] == [node.name, "o"]}
 
     def _disconnected(self, peer: str) -> None:
         if peer != self._server:
@@ -316,7 +316,7 @@ class ActionClient:
 
     # -- incoming messages ---------------------------------------------------------------------------------------
 
-    def _hear(self, statuses: Any) -> None:
+    def _on_statuses(self, statuses: Any) -> None:
         server = (statuses._connection_header or {}).get("callerid", "")
         if server != self._server:
             self._server = server

@@ -24,7 +24,7 @@ _LETTERS = {
     "p": CommState.PREEMPTING,
 }
 
-_HEARD = (
+_REPORTED = (
     Status.PENDING,
     Status.ACTIVE,
     Status.RECALLING,
@@ -52,7 +52,7 @@ _TABLE = """
 CLIENT_TRANSITIONS: dict[CommState, dict[Status, tuple[CommState, ...] | None]] = {
     CommState[row.split()[0]]: {
         status: None if states == "!" else tuple(_LETTERS[letter] for letter in states if letter != "-")
-        for status, states in zip(_HEARD, row.split()[1:], strict=True)
+        for status, states in zip(_REPORTED, row.split()[1:], strict=True)
     }
     for row in _TABLE.strip().splitlines()
 }
@@ -64,7 +64,7 @@ None if the report is not allowed in that state.
 CANCELLABLE = frozenset({CommState.WAITING_FOR_GOAL_ACK, CommState.PENDING, CommState.ACTIVE})
 """States in which a goal can be cancelled; in the others it is being cancelled already, or over."""
 
-_MAY_BE_UNHEARD = frozenset({CommState.WAITING_FOR_GOAL_ACK, CommState.WAITING_FOR_RESULT, CommState.DONE})
+_MAY_BE_UNLISTED = frozenset({CommState.WAITING_FOR_GOAL_ACK, CommState.WAITING_FOR_RESULT, CommState.DONE})
 """States in which a status list may lack the goal: the server has not received it yet, or has dropped it."""
 
 
@@ -75,7 +75,7 @@ def path(state: CommState, status: int) -> tuple[CommState, ...]:
     """
     row = CLIENT_TRANSITIONS.get(state, {})
     if status not in row:
-        known = ", ".join(f"{one.value} {one.name}" for one in _HEARD)
+        known = ", ".join(f"{one.value} {one.name}" for one in _REPORTED)
         raise IllegalTransition(
             f"the server sent the status {Status.to_string(status)}, which is not valid; valid are {known}"
         )
@@ -118,7 +118,7 @@ class ClientMachine:
 
     def miss(self) -> bool:
         """Handle a status list that lacks this goal; return whether the goal is now lost."""
-        if self.state in _MAY_BE_UNHEARD:
+        if self.state in _MAY_BE_UNLISTED:
             return False
         self.status = Status.LOST
         self._enter(CommState.DONE)

@@ -221,14 +221,14 @@ class ActionServer:
 
     def publish_result(self, status: Any, result: Any) -> None:
         """Publish a result, and the list of goals after it. Called by the handles."""
-        self._say("result", status, result)
+        self._publish_on_goal("result", status, result)
         self.publish_change()
 
     def publish_feedback(self, status: Any, feedback: Any) -> None:
         """Publish feedback on the goal of ``status``. Called by the handles."""
-        self._say("feedback", status, feedback)
+        self._publish_on_goal("feedback", status, feedback)
 
-    def _say(self, part: str, status: Any, content: Any) -> None:
+    def _publish_on_goal(self, part: str, status: Any, content: Any) -> None:
         if not self._open:
             return
         end: Publisher = self.result_pub if part == "result" else self.feedback_pub

@@ -41,8 +41,8 @@ class ActionTypes(NamedTuple):
             name = getattr(spec, "__name__", repr(spec))
             ends = [end for end in ("Goal", "Result", "Feedback") if name.endswith(end)]
             hint = f"give {name.removesuffix(ends[0]).removesuffix('Action')}Action" if ends else how_to_import(spec)
-            told = f": {hint}" if hint else ""
-            raise ActionException(f"{name} is not an action type, such as FibonacciAction{told}") from error
+            advice = f": {hint}" if hint else ""
+            raise ActionException(f"{name} is not an action type, such as FibonacciAction{advice}") from error
         return cls(*parts, *inner)
 
 

@@ -55,8 +55,8 @@ class Client:
         self._wait_for_service(service, timeout or None)
         self._set_service = node.service_client(service, service_class("dynamic_reconfigure/Reconfigure"), numpy=False)
         self._subscribers = [
-            node.subscriber(f"{name}/{topic}", message_class(f"dynamic_reconfigure/{kind}"), heard, numpy=False)
-            for topic, kind, heard in (
+            node.subscriber(f"{name}/{topic}", message_class(f"dynamic_reconfigure/{kind}"), callback, numpy=False)
+            for topic, kind, callback in (
                 ("parameter_descriptions", "ConfigDescription", self._described),
                 ("parameter_updates", "Config", self._updated),
             )

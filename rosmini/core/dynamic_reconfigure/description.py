@@ -211,7 +211,7 @@ def _group_of(tree: Mapping[str, Any], numbers: _Numbers, parent: int = 0) -> Pa
             state=bool(tree.get("state", True)),
             id=number,
             parent=parent,
-            parameters=tuple(_parameter(**_wanted(one)) for one in tree["parameters"]),
+            parameters=tuple(_parameter(**_known_items(one)) for one in tree["parameters"]),
             groups=tuple(_group_of(one, numbers, number) for one in tree.get("groups", ())),
         )
     except (KeyError, TypeError, AttributeError) as error:
@@ -221,7 +221,7 @@ def _group_of(tree: Mapping[str, Any], numbers: _Numbers, parent: int = 0) -> Pa
         ) from error
 
 
-def _wanted(one: Mapping[str, Any]) -> dict[str, Any]:
+def _known_items(one: Mapping[str, Any]) -> dict[str, Any]:
     """Return the items of a parameter's dictionary that we use; it also contains file lines and C++ types."""
     return {each.name: one[each.name] for each in fields(ReconfigurableParameter) if each.name in one}
 

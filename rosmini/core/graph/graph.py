@@ -387,9 +387,9 @@ class Graph:
         """Add a node; return the path of its log file, or None. The Master ends an older node of the same name."""
         self.nodes[node.name] = node
         self._nodes_started += 1
-        asked = node.remappings.log_file
-        if asked is not None:
-            return Path(asked).absolute()
+        log_file = node.remappings.log_file
+        if log_file is not None:
+            return Path(log_file).absolute()
         if self.log_folder is None:
             return None
         name = node.name.lstrip("/")

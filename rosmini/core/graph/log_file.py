@@ -17,19 +17,19 @@ LEVEL_NAMES = {1: "DEBUG", 2: "INFO", 4: "WARNING", 8: "ERROR", 16: "CRITICAL"}
 """Python's names of the levels, which rospy writes to files."""
 
 
-def log_folder(asked: str | Path | None, run_id: str) -> Path | None:
-    """Make and return the folder for log files, ``<asked>/<run_id>`` or ``<ROS_LOG_DIR>/<run_id>``.
+def log_folder(log_dir: str | Path | None, run_id: str) -> Path | None:
+    """Make and return the folder for log files, ``<log_dir>/<run_id>`` or ``<ROS_LOG_DIR>/<run_id>``.
 
     Returns None if neither is given. Raises ``RosminiError`` if the folder cannot be made.
     """
-    given = asked or os.environ.get(VARIABLE)
+    given = log_dir or os.environ.get(VARIABLE)
     if not given:
         return None
     folder = Path(given).expanduser() / run_id
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        source = "log_dir" if asked else f"the environment variable {VARIABLE}"
+        source = "log_dir" if log_dir else f"the environment variable {VARIABLE}"
         raise RosminiError(
             f"cannot make the folder {folder} for log files: {error.strerror}. Set {source} to a folder that you may "
             "write to."

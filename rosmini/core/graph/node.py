@@ -538,12 +538,12 @@ class Node:
         timeout: float | None,
         reason: str,
         failure: Callable[[], str],
-        look_again: Callable[[], bool] = lambda: False,
+        must_poll: Callable[[], bool] = lambda: False,
     ) -> None:
         """Block until ``is_so()``, which queries the Master, returns True.
 
         It is called after each change there, and periodically if the Master is in another process, or while
-        ``look_again()`` returns True.
+        ``must_poll()`` returns True.
 
         Raises ``ROSException`` with the text ``failure()`` after ``timeout`` seconds.
         """
@@ -558,7 +558,7 @@ class Node:
                 if self._is_answered(is_so):
                     return
                 span = None if end is None else max(end - scheduler.now_ns(), 0)
-                if not self.graph.master.is_local or look_again():
+                if not self.graph.master.is_local or must_poll():
                     span = POLL_NS if span is None else min(span, POLL_NS)
                 if not self.wait(waiter, timeout_ns=span) and end is not None and scheduler.now_ns() >= end:
                     msg = f"timeout exceeded after {timeout:g} s while waiting for {reason}: {failure()}"

@@ -227,9 +227,9 @@ class ParameterClient:
         """
         if self._lane is None:
             self._lane = self._node.spawn(f"{self._node.name} parameters")
-        self._lane.submit(partial(self._look_at, canonicalize(key)))
+        self._lane.submit(partial(self._report_change, canonicalize(key)))
 
-    def _look_at(self, changed: str) -> None:
+    def _report_change(self, changed: str) -> None:
         for name in list(self._callbacks):
             if not _is_in(changed, name):
                 continue

@@ -215,8 +215,8 @@ class Publication:
         Raises ``TransportInitError`` if the md5 sums differ: the type's name does not matter, as in ROS.
         """
         cls = self.message_class
-        wanted = header.get("md5sum")
-        if wanted is None:
+        md5sum = header.get("md5sum")
+        if md5sum is None:
             msg = "Missing required 'md5sum' field"
             raise TransportInitError(msg)
         fields = {
@@ -229,13 +229,13 @@ class Publication:
             **self.headers,
         }
         mine = dict(sorted(fields.items()))
-        if wanted not in ("*", cls._md5sum):
+        if md5sum not in ("*", cls._md5sum):
             theirs = {**header, "callerid": header.get("callerid", "unknown"), "type": header.get("type", "*")}
             problem = TypeMismatch(describe_mismatch(self.topic, mine, theirs))
             self.node.graph.report(problem, self.node, raise_strict=False)
             msg = (
                 f"Client [{theirs['callerid']}] wants topic [{self.topic}] to have datatype/md5sum "
-                f"[{theirs['type']}/{wanted}], but our version has [{cls._type}/{cls._md5sum}] Dropping connection."
+                f"[{theirs['type']}/{md5sum}], but our version has [{cls._type}/{cls._md5sum}] Dropping connection."
             )
             raise TransportInitError(msg, mine)
         self.add(sender)

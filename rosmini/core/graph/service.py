@@ -93,7 +93,7 @@ class Services(dict[str, "ServiceServer"]):
             timeout,
             f"the service {resolved} to be offered",
             lambda: f"nobody answers at {silent[0]}" if silent else f"nobody offers {resolved}",
-            look_again=lambda: bool(silent),
+            must_poll=lambda: bool(silent),
         )
 
     def _answers(self, service: str, uri: str) -> bool:
@@ -144,9 +144,9 @@ class ServiceServer:
 
         Raises ``TransportInitError`` if the client's md5 sum is neither that of the service's type nor ``*``.
         """
-        wanted, mine = header.get("md5sum"), self.service_class._md5sum
-        if wanted not in ("*", mine):
-            msg = f"request from [{header.get('callerid', 'unknown')}]: md5sums do not match: [{wanted}] vs. [{mine}]"
+        md5sum, own = header.get("md5sum"), self.service_class._md5sum
+        if md5sum not in ("*", own):
+            msg = f"request from [{header.get('callerid', 'unknown')}]: md5sums do not match: [{md5sum}] vs. [{own}]"
             raise TransportInitError(msg)
         session = Session(self, header)
         self.sessions.append(session)

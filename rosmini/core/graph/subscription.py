@@ -47,7 +47,7 @@ class Subscription:
         self.updates = 0
         """Number of lists of the topic's publishers received from the Master."""
         self._first: Subscriber | None = None
-        self._wanted: dict[str, None] = {}
+        self._publishers: dict[str, None] = {}
         self._is_closed = False
         self._attempts: dict[str, int] = {}
         """Number of consecutive failed connections to each publisher."""
@@ -66,11 +66,11 @@ class Subscription:
         if self._is_closed:
             return
         self.updates += 1
-        self._wanted = wanted = dict.fromkeys(uri for uri in uris if not self._is_skipped(uri))
-        self._attempts = {uri: count for uri, count in self._attempts.items() if uri in wanted}
+        self._publishers = publishers = dict.fromkeys(uri for uri in uris if not self._is_skipped(uri))
+        self._attempts = {uri: count for uri, count in self._attempts.items() if uri in publishers}
         for uri, link in self.connections.items():
-            link.publisher_left = link.publisher_left or (uri not in wanted and not link.is_open)
-        for uri in wanted:
+            link.publisher_left = link.publisher_left or (uri not in publishers and not link.is_open)
+        for uri in publishers:
             if uri not in self.connections:
                 self.connections[uri] = Connection(self, uri)
 
@@ -86,7 +86,7 @@ class Subscription:
         for connection in self.connections.values():
             connection.uri = uris.get(connection.uri, connection.uri)
         self.connections = {connection.uri: connection for connection in self.connections.values()}
-        self._wanted = {uris.get(uri, uri): None for uri in self._wanted}
+        self._publishers = {uris.get(uri, uri): None for uri in self._publishers}
 
     def forget(self, connection: Connection) -> None:
         """Drop a connection that was closed or refused."""
@@ -132,7 +132,7 @@ class Subscription:
         after each message is not called all the time.
         """
         uri = connection.uri
-        if self._is_closed or not self.handles or uri not in self._wanted:
+        if self._is_closed or not self.handles or uri not in self._publishers:
             return False
         attempt = self._attempts.get(uri, 0)
         attempt = min(attempt, 1) if connection.had_success else attempt
@@ -141,7 +141,7 @@ class Subscription:
         return self.node.graph.transport.retry(uri, delay, partial(self._connect, uri))
 
     def _connect(self, uri: str) -> None:
-        if not self._is_closed and self.handles and uri in self._wanted and uri not in self.connections:
+        if not self._is_closed and self.handles and uri in self._publishers and uri not in self.connections:
             self.connections[uri] = Connection(self, uri)
 
     def add(self, handle: Subscriber) -> None:

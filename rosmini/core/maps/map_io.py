@@ -116,8 +116,8 @@ class MapFile:
         most = max(occupancy.shape)
         if not MIN_CELL_M <= fields.resolution <= most * fields.resolution <= MAX_MAP_M:
             bounds = f"{MIN_CELL_M:g} or more, and with {most} of them no more than {MAX_MAP_M:g}"
-            wanted = f"the side of a cell in metres, {bounds}"
-            raise _wrong(document, "resolution", fields.resolution, wanted)
+            requirement = f"the side of a cell in metres, {bounds}"
+            raise _wrong(document, "resolution", fields.resolution, requirement)
         odd = _odd_thresholds(fields) if fields.mode != "raw" else ""
         if fields.mode != "raw" and (occupancy == UNKNOWN).all():
             odd = (
@@ -178,9 +178,9 @@ def _fields(document: _Document) -> Fields:
     if missing:
         unknown = [str(name) for name in found if name not in (*REQUIRED, *OPTIONAL)]
         hints = [hint for name in unknown if (hint := nearest(name, missing))]
-        said = f" (it has {', '.join(unknown)}: {' '.join(hints)})" if hints else ""
+        text = f" (it has {', '.join(unknown)}: {' '.join(hints)})" if hints else ""
         raise MapMetadataError(
-            f"{document.path}: the map has no field {missing[0]!r}{said}; it needs {', '.join(REQUIRED)}", missing[0]
+            f"{document.path}: the map has no field {missing[0]!r}{text}; it needs {', '.join(REQUIRED)}", missing[0]
         )
     image = found["image"]
     if not isinstance(image, str) or not image:
@@ -242,14 +242,14 @@ def _origin(document: _Document, value: object) -> tuple[float, float, float]:
     return x, y, yaw
 
 
-def _whole(document: _Document, name: str, value: object, wanted: str) -> int:
+def _whole(document: _Document, name: str, value: object, requirement: str) -> int:
     """Return the integer `value`, which may be in quotation marks. Raises `MapMetadataError` for anything else."""
     try:
         if isinstance(value, str) or type(value) is int:
             return int(value)
     except ValueError:
         pass
-    raise _wrong(document, name, value, wanted)
+    raise _wrong(document, name, value, requirement)
 
 
 def _number(document: _Document, name: str, value: object) -> float:
@@ -263,9 +263,9 @@ def _number(document: _Document, name: str, value: object) -> float:
     return number
 
 
-def _wrong(document: _Document, name: str, value: object, wanted: str) -> MapMetadataError:
-    said = f"{document.place(name)}: the field {name!r} is {shown(value)}; it must be {wanted}"
-    return MapMetadataError(said, name)
+def _wrong(document: _Document, name: str, value: object, requirement: str) -> MapMetadataError:
+    text = f"{document.place(name)}: the field {name!r} is {shown(value)}; it must be {requirement}"
+    return MapMetadataError(text, name)
 
 
 def _nearest_file(path: Path) -> str:

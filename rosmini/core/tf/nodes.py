@@ -161,7 +161,7 @@ class TfEcho:
         print(text)
 
 
-KEPT = 1000
+MAX_SAMPLES = 1000
 """Maximum number of messages of a node, or transforms of a frame, in the statistics: the latest ones count."""
 
 
@@ -169,8 +169,8 @@ class Delays:
     """Delays [s] of the latest transforms of one sender or frame, from their stamp to their arrival."""
 
     def __init__(self) -> None:
-        self.times: deque[float] = deque(maxlen=KEPT)
-        self.delays: deque[float] = deque(maxlen=KEPT)
+        self.times: deque[float] = deque(maxlen=MAX_SAMPLES)
+        self.delays: deque[float] = deque(maxlen=MAX_SAMPLES)
         self.sender = ""
 
     def add(self, now: float, delay: float) -> None:
@@ -204,13 +204,13 @@ class TfMonitor:
         self.frames: dict[str, Delays] = {}
         self.net = Delays()
         kind = message_class("tf2_msgs/TFMessage")
-        node.subscriber("/tf", kind, lambda data: self._hear(data, static=False), numpy=False)
-        node.subscriber("/tf_static", kind, lambda data: self._hear(data, static=True), numpy=False)
+        node.subscriber("/tf", kind, lambda data: self._on_transforms(data, static=False), numpy=False)
+        node.subscriber("/tf_static", kind, lambda data: self._on_transforms(data, static=True), numpy=False)
         if self.chain:
             print(f"Waiting for transform chain to become available between {framea} and {frameb} ")
         self.timer = node.timer(1.0, lambda _event: self.report())
 
-    def _hear(self, data: Any, *, static: bool) -> None:
+    def _on_transforms(self, data: Any, *, static: bool) -> None:
         now = self.node.now().to_sec()
         sender = data._connection_header.get("callerid", "unknown_publisher")
         label = sender + ("(static)" if static else "")
@@ -230,21 +230,21 @@ class TfMonitor:
 
     def report(self) -> None:
         """Print the statistics up to now, once the chain is complete."""
-        wanted = sorted(self.frames)
+        frames = sorted(self.frames)
         if self.chain is None:
             head = "RESULTS: for all Frames"
         elif self.buffer.tree.why_not(*self.chain):
             return
         else:
-            way = self.buffer.tree.chain(*self.chain)[::-1]
-            wanted = [frame for frame in way if frame in self.frames]
+            chain = self.buffer.tree.chain(*self.chain)[::-1]
+            frames = [frame for frame in chain if frame in self.frames]
             delays = self.net.delays
             head = (
-                f"RESULTS: for {self.chain[0]} to {self.chain[1]}\nChain is: {' -> '.join(way)}\n"
+                f"RESULTS: for {self.chain[0]} to {self.chain[1]}\nChain is: {' -> '.join(chain)}\n"
                 f"Net delay     avg = {sum(delays) / len(delays):.6g}: max = {max(0.0, *delays):.6g}"
             )
         lines = [head, "", "Frames:"]
-        lines += [f"Frame: {frame} published by {self.frames[frame].sender} {self.frames[frame]}" for frame in wanted]
+        lines += [f"Frame: {frame} published by {self.frames[frame].sender} {self.frames[frame]}" for frame in frames]
         lines += ["", "All Broadcasters:"]
         lines += [f"Node: {name} {delays.rate:.6g} Hz, {delays}" for name, delays in sorted(self.senders.items())]
         print("\n".join(["", "", "", *lines]))

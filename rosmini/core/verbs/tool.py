@@ -269,9 +269,9 @@ class Tool:
         """
         text = [os.fspath(word) if isinstance(word, os.PathLike) else str(word) for word in words]
         text = self.with_verb(text)
-        asked = self.help_for(text)
-        if asked is not None:
-            return Lines(lines=(asked,))
+        help_text = self.help_for(text)
+        if help_text is not None:
+            return Lines(lines=(help_text,))
         verb = self.find(text[0])
         given = verb.parser().parse(text[1:])
         if not self.needs_graph:

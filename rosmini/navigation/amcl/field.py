@@ -76,15 +76,15 @@ class LikelihoodField:
 
         The values are probability densities, cubed or as logarithms by `form`; `range_max` is the laser's [m].
         """
-        wanted = (mixture, range_max, form)
-        if self._table is None or self._table[0] != wanted:
+        key = (mixture, range_max, form)
+        if self._table is None or self._table[0] != key:
             # Squared distances are whole numbers of squared cells, so the few possible values can be tabulated.
             steps = np.rint((self.distance / self.resolution) ** 2).astype(np.int32)
             values = np.arange(int(steps.max()) + 1) * self.resolution**2
             values = np.append(np.minimum(values, self.farthest**2), self.farthest**2)
             density = mixture.z_hit * np.exp(-values / (2 * mixture.sigma_hit**2)) + mixture.z_rand / range_max
             formed = (density * density * density if form == "cube" else np.log(density)).astype(np.float32)
-            self._table = wanted, formed[steps], float(formed[-1])
+            self._table = key, formed[steps], float(formed[-1])
         _, table, outside = self._table
         return table, outside
 

@@ -239,9 +239,9 @@ def touching_pairs(unique: Ints) -> tuple[Ints, Ints]:
     ones, others = [], []
     half = [(a, b, c) for a in (0, 1) for b in (-1, 0, 1) for c in (-1, 0, 1) if (a, b, c) > (0, 0, 0)]
     for step in half:
-        wanted = numbers(unique + np.array(step))
-        at = np.minimum(np.searchsorted(known, wanted, sorter=order), len(known) - 1)
-        hit = known[order[at]] == wanted
+        neighbours = numbers(unique + np.array(step))
+        at = np.minimum(np.searchsorted(known, neighbours, sorter=order), len(known) - 1)
+        hit = known[order[at]] == neighbours
         ones.append(np.flatnonzero(hit))
         others.append(order[at[hit]])
     return np.concatenate(ones), np.concatenate(others)

@@ -86,12 +86,12 @@ def combined_scores(raw: Floats, scales: Floats) -> tuple[Floats, Ints]:
     Critics are applied in order, skipping those with scale 0 (`SimpleScoredSamplingPlanner::scoreTrajectory`). The cost
     of a rejected trajectory is the score of its critic.
     """
-    asked = np.flatnonzero(scales != 0)
-    if not len(asked):
+    used = np.flatnonzero(scales != 0)
+    if not len(used):
         return np.zeros(len(raw)), np.full(len(raw), -1)
-    given = raw[:, asked]
+    given = raw[:, used]
     negative = given < 0
     first = np.argmax(negative, axis=1)
     rejected = negative.any(axis=1)
-    totals = np.where(rejected, given[np.arange(len(raw)), first], (given * scales[asked]).sum(axis=1))
-    return totals, np.where(rejected, asked[first], -1)
+    totals = np.where(rejected, given[np.arange(len(raw)), first], (given * scales[used]).sum(axis=1))
+    return totals, np.where(rejected, used[first], -1)

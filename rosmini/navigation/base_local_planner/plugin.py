@@ -157,7 +157,7 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
             goal,
             self._limits(),
             self.planner.sim_period,
-            lambda asked: self._why_not(pose, asked),
+            lambda command: self._why_not(pose, command),
         )
 
     def _limits(self) -> LocalPlannerLimits:

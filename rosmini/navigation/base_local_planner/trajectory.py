@@ -97,11 +97,11 @@ class Samples:
         accepted = np.flatnonzero(self.accepted)
         cheapest = accepted[np.argsort(self.totals[accepted].round(6), kind="stable")][:count]
         rejected = [np.flatnonzero(self.rejected_by == critic)[:1] for critic in range(len(self.critics))]
-        asked = [name for name, scale in zip(self.critics, self.scales, strict=True) if scale]
-        rows, reasons = [["number", "x", "y", "theta", *asked, "total"]], []
+        used = [name for name, scale in zip(self.critics, self.scales, strict=True) if scale]
+        rows, reasons = [["number", "x", "y", "theta", *used, "total"]], []
         for number in (int(n) for n in np.concatenate([cheapest, *rejected])):
             row = self.explain(number)
-            costs = ["-" if row[name] is None else _shown(row[name]) for name in [*asked, "total"]]
+            costs = ["-" if row[name] is None else _shown(row[name]) for name in [*used, "total"]]
             rows.append([str(number), *map(_shown, self.commands[number]), *costs])
             if row["total"] is None:
                 reasons.append(f"{number}: {self.reason(number)}")

@@ -56,11 +56,11 @@ class ClearCostmapRecovery(RecoveryBehavior, plugin="clear_costmap_recovery/Clea
     def _check_layers(self) -> None:
         """Warn if the behaviour will clear nothing; ROS gives no hint of this."""
         known = [layer.name for costmap in self.costmaps() for layer in costmap.layers]
-        wanted = self.parameters.layer_names
-        if known and not set(wanted) & set(known):
-            hint = next((found for each in wanted if (found := nearest(each, known))), "")
+        names = self.parameters.layer_names
+        if known and not set(names) & set(known):
+            hint = next((found for each in names if (found := nearest(each, known))), "")
             self.node.logwarn(
-                f"{self.name} will clear nothing: ~{self.name}/layer_names is [{', '.join(wanted)}], but the layers of "
+                f"{self.name} will clear nothing: ~{self.name}/layer_names is [{', '.join(names)}], but the layers of "
                 f"the costmaps are {', '.join(dict.fromkeys(known))}. Set it to those that hold obstacles"
                 f"{': ' + hint if hint else ''}"
             )

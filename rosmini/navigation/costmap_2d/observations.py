@@ -54,8 +54,8 @@ class ObservationBuffer:
         """Add an observation that arrived at `now_ns`, without its points below `min_height` or above `max_height`."""
         z = observation.points[:, 2]
         with np.errstate(invalid="ignore"):
-            wanted = (z >= self.min_height) & (z <= self.max_height)
-        points = observation.points if wanted.all() else observation.points[wanted]
+            inside = (z >= self.min_height) & (z <= self.max_height)
+        points = observation.points if inside.all() else observation.points[inside]
         self._kept.appendleft(
             Observation(
                 observation.origin,

@@ -129,7 +129,7 @@ class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
             self.following.goal(),
             self.parameters,
             self.planner.sim_period,
-            lambda asked: self.planner.why_not(self.costmap.grid, pose, self.odometry.velocity, asked),
+            lambda command: self.planner.why_not(self.costmap.grid, pose, self.odometry.velocity, command),
         )
 
     def _drive(self, pose: Pose, plan: Floats) -> Floats:

@@ -18,6 +18,6 @@ def odom_in_map(base_in_map: Rigid, base_in_odom: Rigid) -> Rigid:
     return compose(base_in_map, inverse(base_in_odom))
 
 
-def moved_offset(before: Rigid, wanted: Rigid, base_in_map: Rigid) -> Rigid:
-    """Return the offset that places the robot, now estimated at `base_in_map`, at `wanted`."""
-    return compose(compose(wanted, inverse(base_in_map)), before)
+def moved_offset(before: Rigid, target: Rigid, base_in_map: Rigid) -> Rigid:
+    """Return the offset that places the robot, now estimated at `base_in_map`, at `target`."""
+    return compose(compose(target, inverse(base_in_map)), before)

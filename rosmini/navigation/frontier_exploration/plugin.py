@@ -225,13 +225,13 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
         raise self._refusal(f"no boundary has been drawn within {TIMEOUT:g} s: call update_boundary_polygon first")
 
     def _travel_point(self, frontier: Frontier) -> tuple[float, float]:
-        wanted = self.settings.frontier_travel_point
-        if wanted == CENTROID:
+        name = self.settings.frontier_travel_point
+        if name == CENTROID:
             return frontier.centroid
-        if wanted == MIDDLE:
+        if name == MIDDLE:
             return frontier.middle
-        if wanted != CLOSEST:
-            self.node.logerr(f"Invalid 'frontier_travel_point' parameter {wanted!r}, falling back to 'closest'")
+        if name != CLOSEST:
+            self.node.logerr(f"Invalid 'frontier_travel_point' parameter {name!r}, falling back to 'closest'")
         return frontier.initial
 
     def _publish(self, chosen: Frontier) -> None:

@@ -71,8 +71,8 @@ class Selection:
         if not self.vertices:
             self.frame = frame
         elif frame != self.frame:
-            said = f"Frame mismatch, restarting polygon selection: '{frame}' after '{self.frame}'"
-            return self._restart(said)
+            text = f"Frame mismatch, restarting polygon selection: '{frame}' after '{self.frame}'"
+            return self._restart(text)
         if self.is_closed:
             if contains(self.polygon, (x, y)):
                 return Step.COMPLETE, "Sending goal"

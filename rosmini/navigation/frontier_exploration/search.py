@@ -145,16 +145,16 @@ def _reached_unknown(padded: NDArray[np.uint8], start: int) -> list[int]:
     rank = np.zeros(len(costs), dtype=np.int64)
     wave = np.array([start])
     is_open[start] = False
-    met: list[int] = []
+    found: list[int] = []
     while len(wave):
         beside = (wave[:, None] + steps).ravel()
-        met += beside[unknown[beside]].tolist()
+        found += beside[unknown[beside]].tolist()
         fresh = beside[is_open[beside]]
         # Keep the first occurrence of each cell, as a queue would.
         rank[fresh[::-1]] = np.arange(len(fresh))[::-1]
         wave = fresh[rank[fresh] == np.arange(len(fresh))]
         is_open[wave] = False
-    return met
+    return found
 
 
 @dataclass

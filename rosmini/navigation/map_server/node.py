@@ -142,10 +142,10 @@ def _path_of(address: str) -> str:
 
 def _error_text(error: MapError, path: str) -> str:
     """Return the message of ROS's map_server, which users may search for, followed by the text of `error`."""
-    said = str(error)
+    text = str(error)
     if isinstance(error, MapMissing):
-        return f"Map_server could not open {path}. {said[:1].upper()}{said[1:]}"
+        return f"Map_server could not open {path}. {text[:1].upper()}{text[1:]}"
     field = error.field if isinstance(error, MapMetadataError) else ""
     if not field:
-        return said
-    return f"The map does not contain a{'n' * (field[:1] in 'aeiou')} {field} tag or it is invalid. {said}"
+        return text
+    return f"The map does not contain a{'n' * (field[:1] in 'aeiou')} {field} tag or it is invalid. {text}"

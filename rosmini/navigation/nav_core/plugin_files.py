@@ -70,10 +70,10 @@ def create(interface: type[T], name: str) -> T:
 
 
 def _plugin_class(interface: type[T], name: str) -> type[T]:
-    wanted = name.replace("::", "/")
+    canonical = name.replace("::", "/")
     unread: list[str] = []
-    declared = next((each for each in declared_plugins(wanted, unread) if each.name == wanted), None)
-    if declared is not None and not (declared.is_compiled and wanted in interface.names()):
+    declared = next((each for each in declared_plugins(canonical, unread) if each.name == canonical), None)
+    if declared is not None and not (declared.is_compiled and canonical in interface.names()):
         return _load(interface, declared)
     try:
         return interface.named(name)

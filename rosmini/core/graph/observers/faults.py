@@ -173,10 +173,10 @@ class Faults:
         the fault.
         """
         publishers, subscribers, _ = self._host.ask_as(CALLER_ID).ask("getSystemState")
-        heard = dict(subscribers)
-        self._check("topic", topic, {**heard, **dict(publishers)})
+        nodes_by_topic = dict(subscribers)
+        self._check("topic", topic, {**nodes_by_topic, **dict(publishers)})
         if to:
-            self._check(f"subscriber of {topic}", to, dict.fromkeys(heard.get(topic, ())))
+            self._check(f"subscriber of {topic}", to, dict.fromkeys(nodes_by_topic.get(topic, ())))
         fault = TopicFault(topic, to, lose, double, delay, jitter, self._host.seed if seed is None else seed)
         self._topics[topic, to] = fault
         self._host.observers_changed()
