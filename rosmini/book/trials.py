@@ -7,6 +7,8 @@ ever does no harm. The output of scripts is kept, and an error that ends one is 
 from __future__ import annotations
 
 import re
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, cast
 
 from rosmini.core.graph import Graph
@@ -18,7 +20,9 @@ if TYPE_CHECKING:
     from types import TracebackType
     from typing import Self
 
+    from rosmini.sim.simulation import Simulation
     from rosmini.sim.simulator import Simulator
+    from rosmini.sim.stage.node import Stageros
     from rosmini.sim.turtlesim import TurtleSim
 
 
@@ -41,7 +45,9 @@ class Trial:
         started = rosrun(
             "rosmini_sim", "simulator", f"_world:={world}", *parameters, graph=self.graph, capture_output=True
         )
-        self.robot = cast("Simulator", cast("Any", started).instance())
+        self.simulation: Simulation
+        """Its simulation, of whichever simulator."""
+        self.simulation = self.robot = cast("Simulator", cast("Any", started).instance())
         self._recorder = Recorder(self.graph, self.robot)
 
     def _begin(self, *, is_shown: bool) -> None:
@@ -111,6 +117,38 @@ class Trial:
             return ""
         text, line = error.groups()
         return f"{text} ({line})" if line else text
+
+
+class StageTrial(Trial):
+    """A separate graph with Stage, for use in a ``with`` block like a `Trial`.
+
+    Args:
+        world: the text of the world file.
+        arguments: of stageros, as for rosrun: ``"base_scan:=scan"``.
+
+    Raises:
+        Wrong: Stage cannot read the world.
+
+    """
+
+    def __init__(self, world: str, *arguments: str) -> None:
+        from rosmini.sim.recorder import Recorder
+        from rosmini.sim.stage import StageError
+
+        self._begin(is_shown=True)
+        with TemporaryDirectory() as folder:
+            path = Path(folder) / "answer.world"
+            path.write_text(world, encoding="utf-8")
+            try:
+                started = rosrun("stage_ros", "stageros", path, *arguments, graph=self.graph, capture_output=True)
+                self.simulation = self.stage = cast("Stageros", cast("Any", started).instance())
+            except StageError as error:
+                self.graph.shutdown()
+                said = str(error).replace(folder, "").lstrip("/\\")
+                raise Wrong(
+                    f"Stage cannot read it: {said}", "the number after the file name is that of the line"
+                ) from error
+        self._recorder = Recorder(self.graph, self.stage)
 
 
 class TurtleTrial(Trial):

@@ -166,6 +166,7 @@ SKIPPED = {
     },
     "gz topic -l": PROCESSES,
     "gz world -m 500": PROCESSES,
+    "python3 errand.py": READERS_OWN,
     "python3 patrol.py": READERS_OWN,
     "roslaunch twist_mux twist_mux.launch": ROBOTS_OWN,
     "roslaunch turtlebot3_ds my_multi_turtlebot3.launch": READERS_OWN,

@@ -6,7 +6,7 @@ import pytest
 
 from rosmini import Graph, default_graph, set_default_graph
 from rosmini.book.checks import Script, Status, Wrong, exercise, is_stub
-from rosmini.book.trials import Trial
+from rosmini.book.trials import StageTrial, Trial
 
 DRIVE = """
 import rospy
@@ -126,3 +126,16 @@ def test_a_verdict_shows_what_the_robot_did():
     assert wrong.view is not None
     assert drives.grade(Script("drive.py", "...")).status is Status.NOT_ATTEMPTED
     assert drives.grade(Script("drive.py", "def broken(:")).status is Status.WRONG
+
+
+def test_a_script_drives_in_a_stage_world():
+    with StageTrial("position( pose [1 0 0 90] )") as trial:
+        trial.start(Script("drive.py", DRIVE))
+        trial.run(5.0)
+        x, y, _ = trial.stage.truth()
+    assert (x, y) == (pytest.approx(1.0), pytest.approx(0.9, abs=0.2))
+
+
+def test_a_world_that_stage_cannot_read_is_a_wrong_answer():
+    with pytest.raises(Wrong, match=r"answer\.world:2: .*ranger"):
+        StageTrial("position( )\nrangr( )")

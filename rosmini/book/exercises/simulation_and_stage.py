@@ -1,194 +1,180 @@
-"""Checks of the exercises in the chapter Simulation and Stage."""
+"""Checks of the exercises in the chapter Simulation and Stage: each runs a script or a world file of the reader."""
 
 from __future__ import annotations
 
 import math
-from pathlib import Path
-from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-import numpy as np
+from rosmini.book.checks import Script, Wrong, exercise, expect, expect_type
+from rosmini.book.trials import StageTrial, Trial
+from rosmini.msgs.std_msgs.msg import Float32
 
-from rosmini.book.checks import Wrong, exercise, expect, expect_type
-from rosmini.core.geometry.poses import arc
-from rosmini.msgs.sensor_msgs.msg import LaserScan
-from rosmini.sim.geometry.raycast import raycast
-
-if TYPE_CHECKING:
-    from rosmini.sim.stage import StageRobot, StageWorld
-
-
-# ---- count_hits: what was hit ----
-
-
-def _scan(ranges: list[float], low: float, high: float) -> Any:
-    scan = LaserScan()
-    scan.ranges = np.array(ranges, dtype=np.float32)
-    scan.range_min, scan.range_max = low, high
-    scan.angle_min, scan.angle_increment = -0.5, 0.1
-    return scan
-
-
-_SCANS = (
-    ("of Stage, two of whose beams hit nothing", [5.0, 1.0, 2.5, 5.0], 0.0, 5.0, 2),
-    ("of a TurtleBot3, with inf, -inf and 0.0", [math.inf, 1.0, -math.inf, 0.0, 3.4, 0.12], 0.12, 3.5, 3),
-    ("with a range below range_min", [0.05, 0.5], 0.12, 3.5, 1),
-    ("of Stage that contains 0.0, which is not a measurement", [0.0, 4.9, 5.0], 0.0, 5.0, 1),
-    ("that hit nothing at all", [5.0, 5.0], 0.0, 5.0, 0),
+YARD = """
+define wall model( color "gray30" )
+wall( pose [0 2 0 0] size [6 0.2 0.5] )
+wall( pose [0 -2 0 0] size [6 0.2 0.5] )
+wall( pose [-3 0 0 90] size [4.2 0.2 0.5] )
+wall( pose [3 0 0 90] size [4.2 0.2 0.5] )
+define courier position
+(
+  size [0.3 0.3 0.2]
+  drive "diff"
+  ranger( pose [0 0 -0.05 0] sensor( range [0 5] fov 180 samples 181 ) )
 )
+"""
+"""A yard whose walls are at x = -2.9 m and 2.9 m, and y = -1.9 m and 1.9 m, and a kind of robot that sees others."""
+
+STOP = """
+import rospy
+from geometry_msgs.msg import Twist
+from sensor_msgs.msg import LaserScan
+
+def on_scan(scan):
+    command = Twist()
+    ahead = round(-scan.angle_min / scan.angle_increment)
+    if scan.ranges[ahead] > 0.5:
+        command.linear.x = 0.2
+    cmd_vel.publish(command)
+
+rospy.init_node("driver")
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+rospy.Subscriber("scan", LaserScan, on_scan, queue_size=1)
+rospy.spin()
+"""
+"""A driver that stops half a metre in front of whatever it sees."""
 
 
-@exercise("count_hits", praise="One test works for Stage, for REP 117, and for drivers that report 0.0.")
-def count_hits(answer: Any) -> None:
-    """The number of beams of a scan with a valid measurement."""
-    for what, ranges, low, high, right in _SCANS:
-        found = answer(_scan(ranges, low, high))
-        if isinstance(found, bool) or not isinstance(found, int | np.integer):
-            raise Wrong(f"It returned a {type(found).__name__}, not a whole number.", "return a number")
+# ---- stop_in_both: one program for two lasers ----
+
+
+@exercise("stop_in_both", praise="The same program stops two robots whose lasers count their beams differently.")
+def stop_in_both(answer: Script) -> Any:
+    """The robot stops in front of a wall, in the TurtleBot3's simulator and in Stage."""
+    with Trial("room", "_x:=1.2") as trial:
+        _stops(trial, answer, "The TurtleBot3", 3.3, 0.11)
+    with StageTrial(f"{YARD}courier( pose [0.5 1.2 0 0] )", "base_scan:=scan") as stage:
+        _stops(stage, answer, "Stage's robot", 2.9, 0.16)
+        return stage.view()
+
+
+def _stops(trial: Trial, answer: Script, who: str, wall: float, touch: float) -> None:
+    """Run the script. Raises `Wrong` unless the robot, which looks along x, stops at most 0.5 m before the wall."""
+    trial.start(answer)
+    begin = trial.simulation.truth()[0]
+    trial.run(20.0)
+    before = trial.simulation.truth()[0]
+    trial.run(1.0)
+    trial.expect_no_errors()
+    x = trial.simulation.truth()[0]
+    expect(x > begin + 0.1, f"{who} did not drive.", "publish a command for every scan")
+    expect(wall - x > touch, f"{who} ran into the wall.", "compute which beam looks ahead from scan.angle_min")
+    expect(x - before < 0.01, f"{who} still drives after 20 s.", "publish a command of zero to stop it")
+    expect(
+        wall - x < 0.51,
+        f"{who} stopped {wall - x:.2f} m before the wall; it should stop less than half a metre before it.",
+        "the beam with the angle 0 looks ahead; its number is -angle_min / angle_increment",
+    )
+
+
+# ---- pair_world: robots that see each other ----
+
+
+@exercise("pair_world", praise="Each courier sees the other one, so both stop.")
+def pair_world(answer: Any) -> Any:
+    """A Stage world with two robots, face to face, whose lasers see the other robot."""
+    expect_type(answer, str, "pair_world is", "a string")
+    with StageTrial(answer, "robot_0/base_scan:=robot_0/scan", "robot_1/base_scan:=robot_1/scan") as trial:
+        robots = trial.stage.file.robots
         expect(
-            found == right,
-            f"For a scan {what}, it counted {found}, not {right}: ranges {ranges}, range_min {low}, range_max {high}.",
-            "count ranges of at least range_min, above 0 and below range_max",
+            len(robots) == 2, f"It contains {len(robots)} robots, not two.", "add two lines that begin with courier("
         )
+        for robot in robots:
+            expect(len(robot.lasers) == 1, f"{robot.name} has no laser.", "a ranger with a sensor, as in yard.world")
+        (x, y, heading), (other_x, other_y, other_heading) = (robot.pose for robot in robots)
+        apart = math.hypot(other_x - x, other_y - y)
+        expect(
+            abs(apart - 3) < 0.02, f"They start {apart:.2f} m apart, not 3 m.", "compare the first two numbers of pose"
+        )
+        bearing = math.atan2(other_y - y, other_x - x)
+        for robot, angle in ((robots[0], heading - bearing), (robots[1], other_heading - bearing - math.pi)):
+            off = abs(math.remainder(angle, 2 * math.pi))
+            expect(
+                off < 0.02, f"{robot.name} does not face the other robot.", "the last number of a pose is in degrees"
+            )
+        for i in (0, 1):
+            trial.start(Script("stop.py", STOP), f"__ns:=robot_{i}")
+        trial.run(20.0)
+        (x, y, _), (other_x, other_y, _) = (trial.stage.truth(f"robot_{i}") for i in (0, 1))
+        left = math.hypot(other_x - x, other_y - y)
+        expect(
+            left > 0.5,
+            "They drove into each other: no laser saw the other robot.",
+            "a laser without a pose is on top of its robot; a negative z puts it into the body",
+        )
+        expect(left < 0.9, f"They stopped {left:.2f} m apart: something is between them.", "leave the shed out")
+        return trial.view()
 
 
-# ---- mole_world: a world file ----
+# ---- sideways: a robot that drives in any direction ----
+
+PLACES = (((-2.0, -1.0, 90.0), (-0.5, 0.8)), ((1.5, 1.0, 200.0), (-1.0, -0.7)))
+"""Starts (x, y, heading [deg]) and goals."""
 
 
-def _loaded(text: str) -> StageWorld:
-    from rosmini.sim.stage import StageError, load
+@exercise("sideways", praise="Whatever its heading, it went straight to its place, and did not turn.")
+def sideways(answer: Script) -> Any:
+    """An omnidirectional robot goes to a place without turning."""
+    return [_slides(answer, start, goal) for start, goal in PLACES][-1]
 
-    with TemporaryDirectory() as folder:
-        path = Path(folder) / "mole.world"
-        path.write_text(text, encoding="utf-8")
-        try:
-            return load(path)
-        except StageError as error:
+
+def _slides(answer: Script, start: tuple[float, float, float], goal: tuple[float, float]) -> Any:
+    x, y, degrees = start
+    slider = f'courier( drive "omni" pose [{x} {y} 0 {degrees}] )'
+    with StageTrial(YARD + slider, "base_scan:=scan") as trial:
+        trial.start(answer, f"_x:={goal[0]}", f"_y:={goal[1]}")
+        trial.run(20.0)
+        before = trial.stage.truth()
+        trial.run(1.0)
+        trial.expect_no_errors()
+        x, y, heading = trial.stage.truth()
+        at = f"With a heading of {degrees:.0f} degrees at the start,"
+        expect(math.dist((x, y), start[:2]) > 0.1, f"{at} it did not move.", "publish a command for every odom")
+        turned = math.degrees(heading - math.radians(degrees))
+        expect(abs(turned) < 3, f"{at} it turned by {turned:.0f} degrees.", "leave angular.z at 0")
+        off = math.dist((x, y), goal)
+        expect(off < 0.05, f"{at} it is {off:.2f} m from its place after 20 s.", "turn (dx, dy) into the robot's axes")
+        expect(math.dist(before[:2], (x, y)) < 0.02, f"{at} it does not stop.", "let the speed follow the distance")
+        return trial.view()
+
+
+# ---- odometry_error: how wrong is it? ----
+
+ERRORS = (0.08, -0.05)
+
+
+@exercise("odometry_error", praise="It measured both errors with its laser: now you can correct the odometry.")
+def odometry_error(answer: Script) -> Any:
+    """The node measures with the laser by how much the odometry overestimates the distance."""
+    return [_measures(answer, error) for error in ERRORS][-1]
+
+
+def _measures(answer: Script, error: float) -> Any:
+    got: list[float] = []
+    driver = f'courier( pose [0.2 0.5 0 0] localization "odom" odom_error [{error} 0 0 0] )'
+    with StageTrial(YARD + driver, "base_scan:=scan") as trial:
+        trial.graph.node("listener").subscriber("odom_error", Float32, lambda m: got.append(m.data))
+        trial.start(answer)
+        trial.run(20.0)
+        trial.expect_no_errors()
+        x, _, _ = trial.stage.truth()
+        expect(
+            x > 0.7, f"The robot drove {x - 0.2:.2f} m; it should drive at least half a metre.", "repeat the command"
+        )
+        expect(x < 2.7, "The robot ran into the wall.", "drive for 5 s at 0.2 m/s")
+        expect(got, "It published nothing on /odom_error.", "publish once, at the end")
+        if not math.isfinite(got[-1]) or abs(got[-1] - error) > 0.01:
             raise Wrong(
-                f"Stage cannot read it: {str(error).replace(folder, '').lstrip('/')}",
-                "the number after the file name is the line number",
-            ) from error
-
-
-@exercise("mole_world", praise="Stage loads the world, and the mole is in front of its wall.")
-def mole_world(answer: Any) -> None:
-    """A Stage world with an omnidirectional robot and a wall."""
-    expect_type(answer, str, "mole_world is", "a string")
-    world = _loaded(answer)
-    expect(
-        len(world.robots) == 1,
-        f"It contains {len(world.robots)} robots, not one.",
-        "a model that drives is of type position",
-    )
-    _examine_robot(world.robots[0])
-    _examine_wall(world)
-
-
-def _examine_robot(robot: StageRobot) -> None:
-    expect(robot.name == "mole", f"The robot is called {robot.name}, not mole.", 'write name "mole"')
-    expect(robot.drive == "omni", f'Its drive is "{robot.drive}".', 'use drive "omni" for any direction')
-    x, y, heading = robot.pose
-    expect(
-        math.dist((x, y), (1, 2)) < 0.01 and abs(math.remainder(heading - math.pi / 2, 2 * math.pi)) < 0.01,
-        f"It starts at x {x:.2f} m, y {y:.2f} m with a heading of {math.degrees(heading):.0f} degrees.",
-        "a pose is x, y, z and heading in degrees; 90 points along y",
-    )
-    expect(
-        np.allclose(robot.size, (0.5, 0.5, 0.3), atol=0.001),
-        f"Its size is {' x '.join(f'{part:g}' for part in robot.size)} m.",
-        "the size is length, width and height",
-    )
-    expect(
-        len(robot.lasers) == 1,
-        f"It has {len(robot.lasers)} lasers, not one.",
-        "put one ranger with a sensor into the robot",
-    )
-    laser = robot.lasers[0]
-    expect(laser.samples == 91, f"Its laser has {laser.samples} beams, not 91.", "set samples")
-    expect(
-        abs(laser.fov - math.pi / 2) < 0.001,
-        f"Its laser covers {math.degrees(laser.fov):.0f} degrees, not 90.",
-        "set fov",
-    )
-    expect(abs(laser.range_max - 4) < 0.001, f"Its laser reaches {laser.range_max:g} m, not 4.", "use range [0 4]")
-    expect(
-        0.1 <= laser.height <= 0.2,
-        f"Its laser is {laser.height:.2f} m above the ground, not between 0.1 and 0.2 m.",
-        "a model inside another one is placed on top of it; a negative z lowers it",
-    )
-
-
-def _examine_wall(world: StageWorld) -> None:
-    things = {thing.name: thing for thing in world.world.obstacles}
-    expect("wall" in things, "There is no model called wall.", 'add model( name "wall" ... )')
-    wall = things["wall"]
-    expect(wall.fixed, "The wall can be pushed.", "remove gripper_return")
-    expect(not wall.passable, "The mole can drive through the wall.", "remove obstacle_return")
-    expect(
-        abs(wall.height - 0.6) < 0.001,
-        f"The wall is {wall.height:g} m high, not 0.6 m.",
-        "the height is the third number of size",
-    )
-    segments, discs = world.world.segments, world.world.discs
-    ahead = float(raycast(segments, discs, 1.0, 2.0, math.pi / 2, 0.1, 1, 10.0)[0])
-    expect(
-        abs(ahead - 1.5) < 0.005,
-        "There is nothing in front of the mole."
-        if math.isinf(ahead)
-        else f"The obstacle in front of the mole is {ahead:.2f} m from its centre, not 1.50 m.",
-        "the pose of the wall is that of its centre; subtract half of its thickness",
-    )
-
-
-# ---- world_velocity: a velocity of the world ----
-
-
-@exercise("world_velocity", praise="The robot goes where it is asked to, whatever its heading.")
-def world_velocity(answer: Any) -> None:
-    """The Twist with which an omnidirectional robot has a given velocity in the world's frame."""
-    for vx, vy, degrees in ((0.3, 0.0, 0), (0.3, 0.0, 90), (0.0, 0.4, 30), (-0.2, 0.1, 200)):
-        a = math.radians(degrees)
-        command = answer(vx, vy, a)
-        expect(
-            getattr(command, "_type", "") == "geometry_msgs/Twist",
-            f"It returned a {type(command).__name__}, not a Twist.",
-            "make a Twist(), set linear.x and linear.y, and return it",
-        )
-        v, aside = command.linear.x, command.linear.y
-        gone = (math.cos(a) * v - math.sin(a) * aside, math.sin(a) * v + math.cos(a) * aside)
-        expect(
-            math.dist(gone, (vx, vy)) < 1e-6,
-            f"Asked for ({vx}, {vy}) m/s, the robot with a heading of {degrees} degrees goes "
-            f"({gone[0]:z.2f}, {gone[1]:z.2f}) m/s.",
-            "draw the two axes of the robot, and project the velocity on each",
-        )
-        expect(abs(command.angular.z) < 1e-9, "Your robot turns.", "leave angular.z at 0")
-
-
-# ---- belief: Stage's odometry ----
-
-
-def _belief(v: float, w: float, seconds: float, e_x: float, e_a: float) -> tuple[float, float, float]:
-    x, y, heading = arc((0.0, 0.0, 0.0), (1 + e_x) * v, (1 + e_a) * w, seconds)
-    return float(x), float(y), float(heading)
-
-
-@exercise("belief", praise="You predicted the estimate of Stage's robot without driving it.")
-def belief(answer: Any) -> None:
-    """The pose that a Stage robot with odometry errors estimates after one command."""
-    cases = ((0.5, 0.5, 2.0, 0.1, 0.0), (0.5, 0.5, 2.0, 0.0, -0.1), (0.3, -0.4, 20.0, -0.05, 0.08))
-    for given in (*cases, (0.4, 0.0, 5.0, 0.1, 0.2), (0.0, 1.0, 3.0, 0.1, 0.2)):
-        found = answer(*given)
-        right = _belief(*given)
-        expect(
-            isinstance(found, tuple | list | np.ndarray) and len(found) == 3,
-            f"It returned {found!r}, not x, y and heading.",
-            "return x, y, heading",
-        )
-        wrong = [name for name, a, b in zip(("x", "y", "heading"), found, right, strict=True) if not abs(a - b) < 1e-6]
-        expect(
-            not wrong,
-            f"For v {given[0]}, w {given[1]}, {given[2]:.0f} s, e_x {given[3]} and e_a {given[4]}, this is wrong: "
-            f"{' and '.join(wrong)}.",
-            "it is an arc of radius v / w, with the errors in both; a straight line if w is 0",
-        )
+                f"It published {got[-1]:.3f}; the odometry of this robot overestimates by {error:g}.",
+                "divide the distance by odometry by the distance by the laser, and subtract 1",
+            )
+        return trial.view()

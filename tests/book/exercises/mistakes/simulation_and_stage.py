@@ -1,114 +1,138 @@
-"""Wrong answers to the exercises of the chapter Simulation and Stage."""
+"""Wrong answers to the exercises of the chapter Simulation and Stage: right ones with a fault put in."""
 
 from __future__ import annotations
 
-import math
-from typing import TYPE_CHECKING, Any
+from .nodes_and_master import wrong
 
-import numpy as np
+STOP_IN_BOTH = """
+import rospy
+from geometry_msgs.msg import Twist
+from sensor_msgs.msg import LaserScan
 
-from rosmini.book.exercises.simulation_and_stage import _belief
-from rosmini.msgs import message_class
+def on_scan(scan):
+    command = Twist()
+    ahead = round(-scan.angle_min / scan.angle_increment)
+    if scan.ranges[ahead] > 0.45:
+        command.linear.x = 0.2
+    cmd_vel.publish(command)
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-
-def _counting(rule: Callable[[Any, Any], Any]) -> Callable[[], Any]:
-    return lambda: lambda scan: int(np.sum(rule(np.array(scan.ranges), scan)))
-
-
-# ---- mole_world: a world file ----
-
-_MOLE = """
-position( name "{name}" pose [{pose}] size [{size}] drive "{drive}"
-  ranger( pose [0 0 {z} 0] sensor( range [0 {reach}] fov {fov} samples {samples} ) ) )
-model( name "wall" pose [{wall}] size [3 0.2 {top}] {more} )
+rospy.init_node("driver")
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+rospy.Subscriber("scan", LaserScan, on_scan, queue_size=1)
+rospy.spin()
 """
-_RIGHT = {
-    "name": "mole",
-    "pose": "1 2 0 90",
-    "size": "0.5 0.5 0.3",
-    "drive": "omni",
-    "z": "-0.15",
-    "reach": "4",
-    "fov": "90",
-    "samples": "91",
-    "wall": "1 3.6 0 0",
-    "top": "0.6",
-    "more": "",
-}
+
+PAIR = """
+define courier position
+(
+  size [0.3 0.3 0.2]
+  drive "diff"
+  ranger( pose [0 0 -0.05 0] sensor( range [0 3] fov 180 samples 181 ) )
+)
+courier( name "anna" pose [-1.5 -1 0 0] )
+courier( name "bert" pose [1.5 -1 0 180] )
+"""
+
+SIDEWAYS = """
+import math
+
+import rospy
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+
+def on_odom(odom):
+    here = odom.pose.pose.position
+    turn = odom.pose.pose.orientation
+    heading = 2 * math.atan2(turn.z, turn.w)
+    dx, dy = goal_x - here.x, goal_y - here.y
+    command = Twist()
+    command.linear.x = 0.5 * (math.cos(heading) * dx + math.sin(heading) * dy)
+    command.linear.y = 0.5 * (math.cos(heading) * dy - math.sin(heading) * dx)
+    cmd_vel.publish(command)
+
+rospy.init_node("slider")
+goal_x, goal_y = rospy.get_param("~x"), rospy.get_param("~y")
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+rospy.Subscriber("odom", Odometry, on_odom, queue_size=1)
+rospy.spin()
+"""
+
+ODOMETRY_ERROR = """
+import rospy
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import Float32
+
+def look():
+    scan = rospy.wait_for_message("scan", LaserScan)
+    odom = rospy.wait_for_message("odom", Odometry)
+    return scan.ranges[90], odom.pose.pose.position.x
+
+rospy.init_node("calibrate")
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+result = rospy.Publisher("odom_error", Float32, queue_size=1, latch=True)
+wall, start = look()
+command = Twist()
+command.linear.x = 0.2
+for _ in range(50):
+    cmd_vel.publish(command)
+    rospy.sleep(0.1)
+cmd_vel.publish(Twist())
+rospy.sleep(0.5)
+nearer, end = look()
+result.publish((end - start) / (wall - nearer) - 1)
+rospy.spin()
+"""
 
 
-def _mole(**other: str) -> Callable[[], str]:
-    return lambda: _MOLE.format(**{**_RIGHT, **other})
-
-
-# ---- world_velocity: a velocity of the world ----
-
-
-def _velocity(turn: Callable[[float, float, float], tuple[float, float]]) -> Callable[[], Any]:
-    def make(vx: float, vy: float, heading: float) -> Any:
-        twist = message_class("geometry_msgs/Twist")()
-        twist.linear.x, twist.linear.y = turn(vx, vy, heading)
-        return twist
-
-    return lambda: make
-
-
-def _wrapped(*of: float) -> tuple[float, float, float]:
-    x, y, heading = _belief(*of)
-    return x, y, math.remainder(heading, 2 * math.pi)
+def world(old: str, new: str = "") -> object:
+    """Return what makes the right world with one place of it changed."""
+    assert old in PAIR
+    return lambda: PAIR.replace(old, new)
 
 
 MISTAKES = {
-    "count_hits": [
-        _counting(lambda r, _: np.isfinite(r)),
-        _counting(lambda r, s: r < s.range_max),
-        _counting(lambda r, s: (r >= s.range_min) & (r <= s.range_max)),
-        _counting(lambda r, s: (r >= s.range_min) & (r < s.range_max)),
-        _counting(lambda r, s: (r > 0) & (r < s.range_max)),
-        lambda: lambda scan: [r for r in scan.ranges if scan.range_min <= r < scan.range_max and r > 0],
+    "stop_in_both": [
+        wrong("stop_in_both.py", STOP_IN_BOTH, "[ahead]", "[0]"),
+        wrong("stop_in_both.py", STOP_IN_BOTH, "[ahead]", "[90]"),
+        wrong("stop_in_both.py", STOP_IN_BOTH, "> 0.45", "> 0.9"),
+        wrong("stop_in_both.py", STOP_IN_BOTH, "> 0.45", "> 0.0"),
+        wrong("stop_in_both.py", STOP_IN_BOTH, '"scan"', '"base_scan"'),
+        wrong("stop_in_both.py", STOP_IN_BOTH, "scan.angle_min", "scan.angle_mim"),
     ],
-    "mole_world": [
-        lambda: 'scout( name "mole" )',
-        _mole(name="vole"),
-        _mole(pose="1 2 0 0"),
-        _mole(pose="1 2 0 1.5708"),
-        _mole(drive="diff"),
-        _mole(size="0.5 0.5 0.5"),
-        _mole(z="0"),
-        _mole(z="-0.29"),
-        _mole(reach="5"),
-        _mole(fov="180"),
-        _mole(samples="90"),
-        _mole(wall="1 3.5 0 0"),
-        _mole(wall="2.6 2 0 90"),
-        _mole(top="0.5"),
-        _mole(more="gripper_return 1"),
-        lambda: _MOLE.format(**_RIGHT) * 2,
-        lambda: 'model( name "wall" pose [1 3.6 0 0] size [3 0.2 0.6] )',
+    "pair_world": [
+        lambda: 3,
+        world("pose [0 0 -0.05 0] "),
+        world("pose [1.5 -1 0 180]", "pose [1.5 -1 0 3.1416]"),
+        world("pose [1.5 -1", "pose [1 -1"),
+        world('courier( name "bert" pose [1.5 -1 0 180] )'),
+        world("courier( name", "currier( name"),
+        world("ranger(", "model("),
+        world("courier( name", "model( pose [0 -1 0 0] size [0.1 1 1] )\ncourier( name"),
     ],
-    "world_velocity": [
-        _velocity(lambda vx, vy, _: (vx, vy)),
-        _velocity(lambda vx, vy, a: (math.cos(a) * vx - math.sin(a) * vy, math.sin(a) * vx + math.cos(a) * vy)),
-        _velocity(lambda vx, vy, a: (math.cos(a) * vx + math.sin(a) * vy, math.sin(a) * vx - math.cos(a) * vy)),
-        _velocity(lambda vx, vy, _: (math.hypot(vx, vy), 0.0)),
-        lambda: lambda vx, vy, _heading: (vx, vy),
+    "sideways": [
+        wrong("sideways.py", SIDEWAYS, "    heading = 2 * math.atan2(turn.z, turn.w)", "    heading = 0.0"),
+        wrong("sideways.py", SIDEWAYS, "- math.sin(heading) * dx", "+ math.sin(heading) * dx"),
+        wrong("sideways.py", SIDEWAYS, "heading = 2 * ", "heading = "),
+        wrong("sideways.py", SIDEWAYS, "    command.linear.y", "    command.angular.z"),
+        wrong("sideways.py", SIDEWAYS, "    cmd_vel.publish(command)\n"),
+        wrong("sideways.py", SIDEWAYS, "linear.x = 0.5 *", "linear.x = 0.05 *"),
     ],
-    "belief": [
-        lambda: lambda v, w, seconds, _x, _a: _belief(v, w, seconds, 0.0, 0.0),
-        lambda: lambda v, w, seconds, e_x, e_a: _belief(v, w, seconds, e_a, e_x),
-        lambda: lambda v, w, seconds, e_x, e_a: _belief(v, w, seconds, e_x / 2, e_a / 2),
-        lambda: lambda v, w, seconds, e_x, e_a: _belief(v, w, seconds, -e_x, -e_a),
-        lambda: lambda v, w, seconds, e_x, e_a: (v * seconds * (1 + e_x), 0.0, w * seconds * (1 + e_a)),
-        lambda: (
-            lambda v, w, seconds, e_x, _a: (
-                (1 + e_x) * v / w * math.sin(w * seconds),
-                (1 + e_x) * v / w * (1 - math.cos(w * seconds)),
-                w * seconds,
-            )
+    "odometry_error": [
+        wrong("odometry_error.py", ODOMETRY_ERROR, " - 1)", ")"),
+        wrong(
+            "odometry_error.py", ODOMETRY_ERROR, "(end - start) / (wall - nearer)", "(wall - nearer) / (end - start)"
         ),
-        lambda: _wrapped,
+        wrong("odometry_error.py", ODOMETRY_ERROR, "range(50)", "range(1)"),
+        wrong("odometry_error.py", ODOMETRY_ERROR, "range(50)", "range(500)"),
+        wrong("odometry_error.py", ODOMETRY_ERROR, "ranges[90]", "ranges[0]"),
+        wrong("odometry_error.py", ODOMETRY_ERROR, '"odom_error"', '"error"'),
+        wrong(
+            "odometry_error.py",
+            ODOMETRY_ERROR,
+            "result.publish((end - start) / (wall - nearer) - 1)",
+            "result.publish(0.08)",
+        ),
     ],
 }
