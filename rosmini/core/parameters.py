@@ -122,7 +122,7 @@ class Parameters:
 
 
 def _read(cls: type[Parameters], tree: Any, place: Place) -> dict[str, Any]:
-    """Return the checked values of the parameters in a namespace."""
+    """Return the checked values of the parameters in a namespace. Raises `ParameterError` if one is invalid."""
     if not isinstance(tree, dict):
         raise ParameterError(
             f"parameter {place.name} is the {type(tree).__name__} {tree!r}, and {place.label} is a namespace of "
@@ -161,7 +161,10 @@ def _unknown(name: str, names: list[str], place: Place) -> str:
 
 
 def _converted(value: Any, declared: Field[Any], kind: Any, place: Place, *, limited: bool = False) -> Any:
-    """Return a value converted to the type of a field."""
+    """Return a value converted to the type of a field. Raises `ParameterError` for a wrong type or range.
+
+    With `limited`, a number beyond the field's range becomes the nearest bound instead.
+    """
     options = _options(kind)
     for option in options:
         if isinstance(value, dict) and _is_namespace(option):

@@ -13,10 +13,13 @@ class Asker(Protocol):
     """Calls methods of the Master on behalf of one caller."""
 
     def call(self, method: str, *arguments: Any) -> Triple:
-        """Return the Master's response: code, status and value. Raises ``MasterUnreachable``."""
+        """Return the Master's response: code, status and value. Raises ``MasterUnreachable`` if there is none."""
 
     def ask(self, method: str, *arguments: Any) -> Any:
-        """Return the value of the response. Raises ``ROSException`` if the code is not 1, and ``MasterUnreachable``."""
+        """Return the value of the response.
+
+        Raises ``ROSException`` if the code is not 1, and ``MasterUnreachable`` if there is no response.
+        """
 
     def find(self, method: str, *arguments: Any) -> Any:
         """Return the value of the response, or None if the code is not 1. Raises ``MasterUnreachable``."""

@@ -79,7 +79,7 @@ class TopicClock:
         return cancel
 
     def update(self, message: Any) -> None:
-        """Set the time from a ``rosgraph_msgs/Clock`` message, and make the calls that are due."""
+        """Set the time from a ``rosgraph_msgs/Clock`` message, and make the calls that are due; all if it goes back."""
         self._watch.cancel()
         before, self._now = self._now, message.clock.to_nsec()
         backwards = self._now < before

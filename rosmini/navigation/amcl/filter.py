@@ -224,7 +224,10 @@ def cluster_labels(keys: Ints) -> Ints:
 
 
 def touching_pairs(unique: Ints) -> tuple[Ints, Ints]:
-    """Return the indices of both cells in each pair of touching cells (n, 3); the heading wraps around."""
+    """Return the indices of both cells in each pair of touching cells, among different cells (n, 3).
+
+    Cells also touch at corners, and the heading wraps around.
+    """
     # A margin of one cell makes the number of every neighbour unique.
     low = unique.min(axis=0) - 1
     spans = unique.max(axis=0) - low + 2

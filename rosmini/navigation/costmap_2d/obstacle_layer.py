@@ -72,7 +72,7 @@ class ObstacleLayer(CostmapLayer, plugin="costmap_2d::ObstacleLayer"):
             source.deactivate()
 
     def reset(self) -> None:
-        """Clear all obstacles."""
+        """Clear all obstacles, and subscribe to the sources again."""
         self.deactivate()
         self.costs[...] = self.grid.default
         self.activate()

@@ -167,7 +167,7 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
             self._changed = None
 
     def update_costs(self, grid: Costmap2D, window: Window) -> None:
-        """Write the map's costs."""
+        """Write the map's costs into the window of the master grid; with `use_maximum`, only where they are higher."""
         if not self._received:
             return
         if self.layered.is_rolling:

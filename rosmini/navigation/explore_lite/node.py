@@ -144,7 +144,7 @@ class Explore:
         self.move_base.send_goal(goal, done_cb=lambda state, _: self._on_done(state, point))
 
     def _on_done(self, state: int, point: tuple[float, float]) -> None:
-        """Choose the next goal when one has ended."""
+        """Blacklist the goal if it was aborted, and choose the next one."""
         if state == Status.ABORTED:
             self._blacklist_goal(point, self.move_base.get_goal_status_text())
         if self.is_exploring:

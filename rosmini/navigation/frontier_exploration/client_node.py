@@ -42,7 +42,7 @@ class ExploreClient:
         return f"<ExploreClient {self.node.name}: {len(self.selection.vertices)} vertices>"
 
     def _on_click(self, point: Any) -> None:
-        """Add a clicked point."""
+        """Add a clicked point to the selection; send the goal once that is complete."""
         selection = self.selection
         step, text = selection.click(point.header.frame_id.lstrip("/"), point.point.x, point.point.y)
         if step is Step.REFUSED:

@@ -148,7 +148,7 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
         self._is_drawn = False
 
     def update_bounds(self, robot: Pose, bounds: Bounds) -> None:
-        """Make the bounds unlimited after the boundary has changed."""
+        """Make the bounds unlimited at the first update after the boundary has changed."""
         del robot
         self.use_extra_bounds(bounds)
         if self._has_changed:

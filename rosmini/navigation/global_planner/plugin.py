@@ -133,7 +133,7 @@ class GlobalPlanner(GridPlanner, plugin="global_planner/GlobalPlanner"):
             q.x, q.y, q.z, q.w = quaternion_from_yaw(float(yaw))
 
     def _publish_potential(self, search: Search) -> None:
-        """Publish the potential, scaled by the highest one."""
+        """Publish the potential as a map: the highest one becomes `publish_scale`, unreached cells -1."""
         message = self._grid_message()
         message.header.stamp, message.header.frame_id = self.now(), self.costmap.global_frame
         message.info.resolution = self.grid.resolution

@@ -56,7 +56,7 @@ def _passable(allow_unknown: bool, lethal_cost: int) -> NDArray[np.bool_]:
 
 
 def _fill_around_goal(search: Search, goal: tuple[int, int]) -> None:
-    """Give the passable cells around a reached goal a potential."""
+    """Give a potential to those passable cells around a reached goal that have none but a neighbour with one."""
     flat, table, row = search.potential_with_rim, search.table, search.row
     costs = search.costs.ravel()
     for y in range(max(0, goal[1] - FILL_DISTANCE), min(search.height, goal[1] + FILL_DISTANCE + 1)):

@@ -89,7 +89,7 @@ class Gate(Observer):
         self._rng: np.random.Generator | None = None
 
     def pass_on(self, messages: Iterable[Any], peer: str, accept: Callable[[Iterable[Any]], None]) -> None:
-        """Pass the messages from ``peer`` that are not lost to ``accept``, each after its delay."""
+        """Pass the messages from ``peer`` that are not lost to ``accept``, each after its delay, and some twice."""
         fault = self._fault
         if self._rng is None:
             self._rng = _rng(fault, self._node, peer)
