@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from rosmini.viz.rqt.bag import rqt_bag
     from rosmini.viz.rqt.graph import rqt_graph
     from rosmini.viz.rqt.graph_state import GraphState
-    from rosmini.viz.scan_pictures import scan_picture
     from rosmini.viz.sequences import sequence_diagram
     from rosmini.viz.state_machine import action_states
     from rosmini.viz.world_pictures import world_picture
@@ -38,7 +37,6 @@ __all__ = [
     "plot",
     "rqt_bag",
     "rqt_graph",
-    "scan_picture",
     "sequence_diagram",
     "world_picture",
 ]
@@ -53,7 +51,6 @@ _LATER = {
     "parameter_tree": "rosmini.viz.parameter_trees",
     "plot": "rosmini.viz.plots",
     "rqt_bag": "rosmini.viz.rqt.bag",
-    "scan_picture": "rosmini.viz.scan_pictures",
     "sequence_diagram": "rosmini.viz.sequences",
     "world_picture": "rosmini.viz.world_pictures",
 }

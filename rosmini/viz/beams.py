@@ -78,17 +78,6 @@ class Beams:
             f"{fixed(self.ranges[nearest], 2)} m away {direction(self.angles[nearest])}"
         )
 
-    def around(self) -> str:
-        """Report the ranges ahead, on the left, behind and on the right, where the laser has beams."""
-        said = []
-        for angle in (0.0, math.pi / 2, math.pi, -math.pi / 2):
-            off = np.abs(np.array([_wrapped(float(a) - angle) for a in self.angles]))
-            beam = int(np.argmin(np.round(off, 6)))
-            if off[beam] < math.radians(5.0):
-                hit = f"{fixed(self.ranges[beam], 2)} m" if self.hits[beam] else "nothing"
-                said.append(f"{direction(angle)} {hit}")
-        return ", ".join(said)
-
 
 def direction(angle: float) -> str:
     """Return the name of the one of eight directions that an angle [rad] lies in.

@@ -21,7 +21,6 @@ from rosmini.viz import (
     matplotlib_picture,
     plot,
     rqt_graph,
-    scan_picture,
     sequence_diagram,
     world_picture,
 )
@@ -117,7 +116,6 @@ def _rviz():
 
 KINDS = {
     "world": _world,
-    "scan": lambda: scan_picture(1.0 + 0.5 * np.cos(np.radians(np.arange(360)))),
     "plot": _plot,
     "graph": lambda: rqt_graph(SYSTEM),
     "frames": _frames,

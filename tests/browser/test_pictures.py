@@ -1,12 +1,10 @@
 """Pictures of worlds and runs in Chromium: they take the theme of their page, and leave other pictures alone."""
 
-import math
-
 import numpy as np
 import pytest
 
 from rosmini.sim.worlds import world
-from rosmini.viz import rqt_graph, scan_picture, style, world_picture
+from rosmini.viz import rqt_graph, style, world_picture
 from rosmini.viz.embed import STATIC
 
 pytestmark = pytest.mark.browser
@@ -49,15 +47,6 @@ def test_every_colour_is_that_of_the_theme(show, theme, palette):
     used = {paint for fill, stroke, _ in paints for paint in (fill, stroke)}
     assert {part for part in used if part not in allowed and not part.startswith("rgba")} == set()
     assert {rgb(palette[name]) for name in ("blue", "orange", "vermilion", "muted", "ink")} <= used
-
-
-def test_what_a_marker_shows_follows_the_theme_too(show):
-    ranges = 1.0 + 0.5 * np.cos(np.arange(360) * math.pi / 180)
-    page = show("dark", scan_picture(ranges))
-    shown = page.evaluate(PAINTS, ".rosmini-plot use")
-    assert [stroke for _, stroke, _ in shown] == [rgb(style.DARK["ink"])] * 2
-    # the shape itself has no paint of its own, so it takes that of its use
-    assert page.evaluate("document.querySelector('.rosmini-plot defs path').hasAttribute('stroke')") is False
 
 
 def test_pictures_on_one_page_leave_one_another_alone(show):
