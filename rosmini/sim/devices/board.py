@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
+from rosmini.core.geometry.angles import normalize_angle
 from rosmini.msgs import message_class
 from rosmini.sim.host import Device, Host, Stamp
 from rosmini.sim.sensors.battery import Battery, Charge
-from rosmini.sim.sensors.contact_sensor import TURTLEBOT3_BUMPER, BumperModel, bits, pressed
 
 from .drive import DifferentialDrive
 from .sensor import Outlet, Sensor
 
 if TYPE_CHECKING:
+    from rosmini.core.geometry.poses import Pose
     from rosmini.sim.engine.robot import Robot
 
 BOARD_RATE = 30.0
@@ -32,39 +33,24 @@ class BatteryDevice(Device):
     Args:
         host: the simulated world.
         robot: the engine's name of the robot.
-        battery: the battery; a full one of a Burger if not given.
-        drive: the drive whose motors it powers; None: nothing happens to the robot when the battery is empty.
-        topic: where it is published; None: not published.
-        frame: the frame of the header.
-        rate: messages per second [Hz].
-        name: the device's name; robot/battery if not given.
+        battery: the battery.
+        drive: the drive whose motors it powers.
+        topic: where it is published.
 
     """
 
     order = 70.0
     saved = ("battery", "shown", "_used", "_since")
 
-    def __init__(
-        self,
-        host: Host,
-        robot: str,
-        battery: Battery | None = None,
-        *,
-        drive: DifferentialDrive | None = None,
-        topic: str | None = "battery_state",
-        frame: str = "",
-        rate: float = BOARD_RATE,
-        name: str | None = None,
-    ) -> None:
-        super().__init__(host, name or f"{robot}/battery", rate)
+    def __init__(self, host: Host, robot: str, battery: Battery, *, drive: DifferentialDrive, topic: str) -> None:
+        super().__init__(host, f"{robot}/battery", BOARD_RATE)
         self.robot: Robot = host.engine.robot(robot)
-        self.battery = battery or Battery()
+        self.battery = battery
         self.drive = drive
         self.shown: Charge = self.battery.read()
         """The charge that was reported last."""
         self._used, self._since = 0.0, 0.0  # energy [J] and time [s] that are not taken from the battery yet
         message: Any = message_class("sensor_msgs/BatteryState")()
-        message.header.frame_id = frame
         model = self.battery.model
         message.design_capacity = message.capacity = model.capacity
         message.temperature = math.nan
@@ -73,7 +59,7 @@ class BatteryDevice(Device):
         message.power_supply_technology = message.POWER_SUPPLY_TECHNOLOGY_LIPO
         message.location = model.name
         varying = ("voltage", "current", "charge", "percentage", "present")
-        self._outlet = None if topic is None else Outlet(host.node, topic, message, varying)
+        self._outlet = Outlet(host.node, topic, message, varying)
 
     def due(self, stamp: Stamp, _: int, /) -> None:
         """Drain the battery and publish its state."""
@@ -89,33 +75,20 @@ class BatteryDevice(Device):
         self._since += period
         if self._since >= DRAIN_S:
             self._drain()
-        if self._outlet is not None and self._outlet.num_connections():
+        if self._outlet.num_connections():
             shown = self.shown
             self._outlet.publish(stamp, (shown.voltage, shown.current, shown.charge, shown.percentage, not shown.empty))
 
     def _drain(self) -> None:
         self.shown = self.battery.drain(self._used / self._since, self._since)
         self._used = self._since = 0.0
-        if self.shown.empty and self.drive is not None and self.drive.powered:
+        if self.shown.empty and self.drive.powered:
             self.drive.power(False)
-            self.host.node.logwarn(
-                f"the battery of {self.robot.name} is empty, and its motors stop. Charge it: battery.level = 1.0"
-            )
-
-    def charge(self, level: float = 1.0) -> None:
-        """Charge the battery, or insert one with this level (0 to 1); the motors have power again.
-
-        Raises `BatteryError`.
-        """
-        self.battery.level = level
-        self.shown = self.battery.read()
-        if self.drive is not None and not self.shown.empty:
-            self.drive.power(True)
+            self.host.node.logwarn(f"the battery of {self.robot.name} is empty, and its motors stop")
 
     def close(self) -> None:
         """Close the topic."""
-        if self._outlet is not None:
-            self._outlet.close()
+        self._outlet.close()
 
 
 class SensorStateDevice(Sensor):
@@ -126,12 +99,8 @@ class SensorStateDevice(Sensor):
     Args:
         host: the simulated world.
         drive: the drive whose encoders and motors are reported.
-        battery: the battery whose voltage is reported; None: 0.0 V.
-        bumper: its switches; a stock Burger has none.
+        battery: the battery whose voltage is reported.
         topic: where it is published.
-        frame: the frame of the header; the firmware leaves it empty.
-        rate: messages per second [Hz].
-        name: the device's name; robot/sensor_state if not given.
 
     """
 
@@ -140,27 +109,16 @@ class SensorStateDevice(Sensor):
     order = 80.0
     varying = ("bumper", "torque", "left_encoder", "right_encoder", "battery")
 
-    def __init__(
-        self,
-        host: Host,
-        drive: DifferentialDrive,
-        battery: BatteryDevice | None = None,
-        *,
-        bumper: BumperModel = TURTLEBOT3_BUMPER,
-        topic: str | None = None,
-        frame: str | None = None,
-        rate: float | None = None,
-        name: str | None = None,
-    ) -> None:
-        super().__init__(host, drive.robot.name, topic=topic, frame=frame, rate=rate, name=name)
-        self.drive, self.battery, self.bumper = drive, battery, bumper
+    def __init__(self, host: Host, drive: DifferentialDrive, battery: BatteryDevice, *, topic: str) -> None:
+        super().__init__(host, drive.robot.name, topic=topic)
+        self.drive, self.battery = drive, battery
 
     def sample(self, _: int) -> tuple[int, bool, int, int, float]:
         """Return the state of the switches, the motors, the encoders and the battery."""
         robot = self.robot
-        sectors = pressed(self.bumper, robot.pose, contacts(self.host, robot.name))
+        bumper = bumper_bits(robot.pose, [point for point, _ in contacts(self.host, robot.name)])
         left, right = (_int32(ticks) for ticks in robot.ticks)
-        return (bits(sectors), self.drive.powered, left, right, self.battery.shown.voltage if self.battery else 0.0)
+        return (bumper, self.drive.powered, left, right, self.battery.shown.voltage)
 
 
 class Switches:
@@ -183,8 +141,8 @@ class Switches:
         drive: DifferentialDrive,
         calibrate: Callable[[], None] | None = None,
         *,
-        motor_power: str = "motor_power",
-        reset: str = "reset",
+        motor_power: str,
+        reset: str,
     ) -> None:
         self._drive, self._calibrate = drive, calibrate
         node = host.node
@@ -207,6 +165,13 @@ class Switches:
         """Close the topics."""
         for subscriber in self._subscribers:
             subscriber.unregister()
+
+
+def bumper_bits(pose: Pose, points: Iterable[tuple[float, float]]) -> int:
+    """Return `bumper` of a `turtlebot3_msgs/SensorState` for points of contact: 1 for the front, 2 for the back."""
+    x, y, theta = pose
+    off = [abs(normalize_angle(math.atan2(py - y, px - x) - theta)) for px, py in points]
+    return any(angle <= math.pi / 2 for angle in off) + 2 * any(angle > math.pi / 2 for angle in off)
 
 
 def contacts(host: Host, robot: str) -> list[tuple[tuple[float, float], float]]:

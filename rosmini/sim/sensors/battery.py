@@ -14,8 +14,6 @@ Sources of the numbers:
   at 11.1 V: https://emanual.robotis.com/docs/en/dxl/x/xl430-w250/). The 0.8 W that a motor takes in addition at full
   speed without a load are our estimate; the rest is for the computers. So the published time applies to a robot that
   always drives; one at rest runs longer.
-- The firmware warns below 11.0 V (`updateVoltageCheck` in `turtlebot3_core` of https://github.com/ROBOTIS-GIT/OpenCR),
-  and so does `turtlebot3_diagnostics`.
 - The curve is the usual one of a lithium polymer cell, 4.2 V full, flat around 3.8 V, steep at the end; a cell is cut
   off at 3.0 V. It is a typical cell's, not this model's, and so is the resistance.
 """
@@ -27,8 +25,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rosmini.core.errors import RosminiError
-
 CURVE = (
     (0.0, 3.27), (0.05, 3.61), (0.10, 3.69), (0.20, 3.73), (0.30, 3.77), (0.40, 3.80), (0.50, 3.84),
     (0.60, 3.87), (0.70, 3.95), (0.80, 4.02), (0.90, 4.11), (0.95, 4.15), (1.0, 4.20),
@@ -37,10 +33,6 @@ CURVE = (
 
 STEP = 1.0
 """Maximum integration step [s]."""
-
-
-class BatteryError(RosminiError, ValueError):
-    """An invalid charge level or load; the message contains the reason."""
 
 
 @dataclass(frozen=True)
@@ -58,8 +50,6 @@ class BatteryModel:
     """Additional power of each of its two motors at full speed [W]."""
     efficiency: float = 0.3
     """Fraction of a motor's additional power under load that pushes the robot."""
-    warning: float = 11.0
-    """Voltage below which the firmware warns [V]."""
     cutoff: float = 9.0
     """Cutoff voltage [V]: 3.0 V a cell, before it is damaged."""
     nominal: float = 11.1
@@ -94,15 +84,11 @@ class Charge:
     """[A]; negative, as `sensor_msgs/BatteryState` requires for a battery that is being discharged."""
     charge: float
     """Remaining charge [Ah]."""
-    level: float
-    """Remaining charge, 0 to 1."""
     percentage: float
     """Percentage as defined by TurtleBot3's firmware: the voltage divided by the nominal 11.1 V.
 
     It is 1.13 for a full battery and about 0.8 for an empty one.
     """
-    low: bool
-    """True below the firmware's warning voltage: its buzzer sounds, and `turtlebot3_diagnostics` asks for a charger."""
     empty: bool
     """True after the cutoff: the motors stop, and nothing more is measured."""
 
@@ -113,38 +99,19 @@ class Battery:
     def __init__(self, model: BatteryModel = BURGER_BATTERY, level: float = 1.0) -> None:
         self.model = model
         self.level = level
+        """The remaining fraction of its charge, 0 to 1."""
         self._power = model.rest
         self._empty = False
 
-    @property
-    def level(self) -> float:
-        """The remaining fraction of its charge, 0 to 1.
-
-        Setting it charges or replaces the battery. Raises `BatteryError`.
-        """
-        return self._level
-
-    @level.setter
-    def level(self, level: float) -> None:
-        if not (isinstance(level, (int, float)) and 0.0 <= level <= 1.0):
-            raise BatteryError(f"a battery is from 0 (empty) to 1 (full), not {level!r}")
-        self._level = float(level)
-        self._empty = False
-
     def drain(self, power: float, duration: float) -> Charge:
-        """Draw `power` [W] for `duration` [s]; return the state after it.
-
-        Raises `BatteryError` for a value that is negative or not finite.
-        """
-        if not (0.0 <= power < math.inf and 0.0 <= duration < math.inf):
-            raise BatteryError(f"a battery cannot give {power} W for {duration} s: both must be finite, and 0 or more")
+        """Draw `power` [W] for `duration` [s]; return the state after it."""
         self._power = power
         steps = math.ceil(duration / STEP)
         for _ in range(steps):
             if self._spent():
                 break
             used = self._current() * duration / steps / 3600.0
-            self._level = max(self._level - used / self.model.capacity, 0.0)
+            self.level = max(self.level - used / self.model.capacity, 0.0)
         return self.read()
 
     def read(self) -> Charge:
@@ -155,27 +122,25 @@ class Battery:
         return Charge(
             voltage=voltage,
             current=0.0 if self._empty else -self._current(),
-            charge=self._level * model.capacity,
-            level=self._level,
+            charge=self.level * model.capacity,
             percentage=voltage / model.nominal,
-            low=voltage < model.warning,
             empty=self._empty,
         )
 
     def _spent(self) -> bool:
         """Cut the battery off if it is exhausted; return True if it is off.
 
-        It stays off until it is charged, because without a load its voltage would recover.
+        It stays off, although without a load its voltage would recover.
         """
-        self._empty = self._empty or self._level <= 0.0 or self._voltage() <= self.model.cutoff
+        self._empty = self._empty or self.level <= 0.0 or self._voltage() <= self.model.cutoff
         return self._empty
 
     def _current(self) -> float:
         model = self.model
-        open_voltage = model.open_voltage(self._level)
+        open_voltage = model.open_voltage(self.level)
         # beyond the maximum power for this resistance, half of the voltage is lost inside
         left = max(open_voltage**2 - 4 * model.resistance * self._power, 0.0)
         return (open_voltage - math.sqrt(left)) / (2 * model.resistance)
 
     def _voltage(self) -> float:
-        return self.model.open_voltage(self._level) - self.model.resistance * self._current()
+        return self.model.open_voltage(self.level) - self.model.resistance * self._current()

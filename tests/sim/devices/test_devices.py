@@ -19,6 +19,7 @@ from rosmini.sim.devices import (
     Laser,
     PlanarMove,
 )
+from rosmini.sim.devices.board import bumper_bits
 from rosmini.sim.engine import Engine
 from rosmini.sim.host import Host
 from rosmini.sim.models import BURGER, CameraModel
@@ -232,3 +233,16 @@ def test_a_camera_that_is_dear_says_so_once_and_only_if_somebody_hears_it(graph,
     warned = capsys.readouterr().err
     assert warned.count("renders 1920 x 1080 pixels 30 times a second: 62 million pixels") == dear
     assert ("a lower rate (for example 9.6 Hz)" in warned) == dear
+
+
+@pytest.mark.parametrize(
+    ("pose", "points", "bits"),
+    [
+        ((0, 0, 0), [(0.1, 0.0)], 1),
+        ((0, 0, 0), [(-0.1, 0.01), (0.1, 0.05)], 3),
+        ((5.0, 3.0, math.pi / 2), [(5.0, 2.8)], 2),
+        ((0, 0, 0), [], 0),
+    ],
+)
+def test_a_bumper_tells_front_from_back(pose, points, bits):
+    assert bumper_bits(pose, points) == bits

@@ -1,10 +1,8 @@
-"""A battery lasts as long as it is said to, sags under a load, warns, and is cut off."""
-
-import math
+"""A battery lasts as long as it is said to, sags under a load, and is cut off."""
 
 import pytest
 
-from rosmini.sim.sensors.battery import BURGER_BATTERY, WAFFLE_BATTERY, Battery, BatteryError
+from rosmini.sim.sensors.battery import BURGER_BATTERY, WAFFLE_BATTERY, Battery
 
 
 def lifetime(battery, power):
@@ -26,29 +24,14 @@ def test_a_load_pulls_the_voltage_down_and_it_comes_back():
     assert battery.drain(0.0, 0.0).voltage == pytest.approx(idle)
 
 
-def test_it_warns_below_eleven_volts_and_shows_what_the_firmware_shows():
-    full, late = Battery().read(), Battery(level=0.05).read()
-    assert not full.low and late.low and not late.empty
+def test_it_shows_what_the_firmware_shows():
+    full = Battery().read()
     assert full.percentage == pytest.approx(full.voltage / 11.1)
-    assert (full.charge, full.level) == (1.8, 1.0)
+    assert full.charge == 1.8
 
 
-def test_an_empty_one_is_cut_off_until_it_is_charged():
+def test_an_empty_one_is_cut_off():
     battery = Battery(level=0.001)
     seen = battery.drain(8.0, 60.0)
-    assert seen.empty and seen.low and (seen.voltage, seen.current) == (0.0, 0.0)
+    assert seen.empty and (seen.voltage, seen.current) == (0.0, 0.0)
     assert battery.drain(0.0, 10.0).empty
-    battery.level = 1.0
-    assert not battery.read().empty
-
-
-@pytest.mark.parametrize("level", [-0.1, 1.1, math.nan])
-def test_a_level_that_is_none_is_refused(level):
-    with pytest.raises(BatteryError, match="from 0"):
-        Battery(level=level)
-
-
-@pytest.mark.parametrize(("power", "duration"), [(-1.0, 1.0), (1.0, -1.0), (math.nan, 1.0), (1.0, math.inf)])
-def test_what_cannot_be_drawn_is_refused(power, duration):
-    with pytest.raises(BatteryError, match="finite"):
-        Battery().drain(power, duration)
