@@ -116,7 +116,7 @@ def test_a_robot_moves_sees_and_reckons(sim, graph):
 
 
 def test_it_is_shown(sim):
-    for shown in (sim.show(), sim.show3d(), sim.view()):
+    for shown in (sim.show(), sim.show3d()):
         assert shown.text
     assert "cmd_vel" in sim.pad().topic
 

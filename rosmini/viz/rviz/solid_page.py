@@ -45,7 +45,7 @@ def turn(scene: Scene, numbers: Sequence[float]) -> None:
     view = scene.view
     if isinstance(view, Orbit):
         yaw, pitch, distance, *offset = numbers
-        view.turn(yaw, pitch, min(max(distance, 0.05), 1e4), scene.context)
+        view.turn(yaw, pitch, min(max(distance, 0.05), 1e4))
         view.pan(np.array(offset), scene.context)
 
 

@@ -15,7 +15,6 @@ import numpy as np
 
 from rosmini.core.plugins import Plugin, PluginError
 from rosmini.core.tf import TransformException
-from rosmini.core.tf.rigid import rpy
 
 from .context import FIXED_FRAME, Context
 from .primitives import Floats
@@ -96,12 +95,11 @@ class ViewController(Plugin):
         """Zoom in by a factor."""
         raise NotImplementedError
 
-    def target(self, context: Context) -> tuple[Floats, float]:
-        """Return the origin (3,) and heading [rad] of the target frame in the fixed frame."""
+    def target(self, context: Context) -> Floats:
+        """Return the origin (3,) of the target frame in the fixed frame."""
         with suppress(TransformException):
-            found = context.place(self["Target Frame"] or FIXED_FRAME)
-            return np.array(found[:3]), rpy(found)[2]
-        return np.zeros(3), 0.0
+            return np.array(context.place(self["Target Frame"] or FIXED_FRAME)[:3])
+        return np.zeros(3)
 
 
 class Orbit(ViewController, plugin="rviz/Orbit"):
@@ -111,8 +109,16 @@ class Orbit(ViewController, plugin="rviz/Orbit"):
 
     def viewpoint(self, context: Context) -> Viewpoint:
         """Return the viewpoint; the focal point moves with the target frame, but does not rotate with it."""
-        origin, _ = self.target(context)
-        return self._around(origin + np.array(self["Focal Point"]), self["Yaw"])
+        angle = self["Field of View"]
+        width = 2.0 * self["Distance"] * math.tan(angle / 2) * ASPECT
+        return Viewpoint(
+            self.target(context) + np.array(self["Focal Point"]),
+            self["Yaw"],
+            self["Pitch"],
+            width,
+            is_flat=False,
+            field_of_view=math.degrees(angle),
+        )
 
     def pan(self, offset: Floats, context: Context) -> None:
         """Move the focal point."""
@@ -123,49 +129,11 @@ class Orbit(ViewController, plugin="rviz/Orbit"):
         """Move closer to the focal point."""
         self["Distance"] = self["Distance"] / factor
 
-    def turn(self, yaw: float, pitch: float, distance: float, context: Context) -> None:
+    def turn(self, yaw: float, pitch: float, distance: float) -> None:
         """Look from the direction `yaw` of the fixed frame, at the elevation `pitch` [rad], from this distance [m]."""
-        del context
         self["Yaw"] = float(yaw) % (2 * math.pi)
         self["Pitch"] = min(max(float(pitch), -STEEPEST), STEEPEST)
         self["Distance"] = float(distance)
-
-    def _around(self, target: Floats, yaw: float) -> Viewpoint:
-        angle = self["Field of View"]
-        width = 2.0 * self["Distance"] * math.tan(angle / 2) * ASPECT
-        return Viewpoint(target, yaw, self["Pitch"], width, is_flat=False, field_of_view=math.degrees(angle))
-
-
-class XYOrbit(Orbit, plugin="rviz/XYOrbit"):
-    """An orbit whose focal point stays on the ground."""
-
-    def viewpoint(self, context: Context) -> Viewpoint:
-        """Return the viewpoint like `Orbit`, with the focal point on the ground of the target frame."""
-        origin, _ = self.target(context)
-        focus = self["Focal Point"]
-        return self._around(origin + np.array([focus.x, focus.y, 0.0]), self["Yaw"])
-
-
-class ThirdPersonFollower(Orbit, plugin="rviz/ThirdPersonFollower"):
-    """An orbit that rotates with the target frame."""
-
-    def viewpoint(self, context: Context) -> Viewpoint:
-        """Return the viewpoint; focal point and yaw are relative to the target frame."""
-        origin, heading = self.target(context)
-        x, y, z = self["Focal Point"]
-        c, s = math.cos(heading), math.sin(heading)
-        return self._around(origin + np.array([c * x - s * y, s * x + c * y, z]), self["Yaw"] + heading)
-
-    def turn(self, yaw: float, pitch: float, distance: float, context: Context) -> None:
-        """Look from the direction `yaw` of the fixed frame; the view stores it relative to the target frame."""
-        super().turn(yaw - self.target(context)[1], pitch, distance, context)
-
-    def pan(self, offset: Floats, context: Context) -> None:
-        """Move the focal point, which is given in the target frame."""
-        _, heading = self.target(context)
-        x, y, z = offset
-        c, s = math.cos(heading), math.sin(heading)
-        super().pan(np.array([c * x + s * y, c * y - s * x, z]), context)
 
 
 class TopDownOrtho(ViewController, plugin="rviz/TopDownOrtho"):
@@ -181,8 +149,7 @@ class TopDownOrtho(ViewController, plugin="rviz/TopDownOrtho"):
 
     def viewpoint(self, context: Context) -> Viewpoint:
         """Return the viewpoint; at angle 0, x is to the right and y is up."""
-        origin, _ = self.target(context)
-        middle = origin + np.array([self["X"], self["Y"], 0.0])
+        middle = self.target(context) + np.array([self["X"], self["Y"], 0.0])
         return Viewpoint(middle, self["Angle"] - math.pi / 2, math.pi / 2, PIXELS / self["Scale"])
 
     def pan(self, offset: Floats, context: Context) -> None:
@@ -204,7 +171,7 @@ def view_like(kind: str, before: Viewpoint, frame: str, context: Context) -> Vie
     made["Target Frame"] = frame
     if isinstance(made, Orbit):
         pitch = math.pi / 4 if before.is_flat else before.pitch
-        made.turn(before.yaw, pitch, before.distance or made["Distance"], context)
+        made.turn(before.yaw, pitch, before.distance or made["Distance"])
     elif before.width:
         made["Scale"] = PIXELS / before.width
     made.centre_on(before.target, context)

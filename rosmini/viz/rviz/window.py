@@ -25,7 +25,7 @@ from rosmini.viz.rviz.projection import ParallelProjection, Perspective
 from rosmini.viz.rviz.selection import Picked, hit, picked
 from rosmini.viz.rviz.suggestions import Suggestions, suggested
 from rosmini.viz.rviz.tools import Select, Tools
-from rosmini.viz.rviz.views import PIXELS, Orbit, ThirdPersonFollower, TopDownOrtho, ViewController, XYOrbit, view_like
+from rosmini.viz.rviz.views import PIXELS, Orbit, TopDownOrtho, ViewController, view_like
 from rosmini.viz.view import ViewError
 
 from .solid_page import HOST, NUMBERS, SCRIPTS, SolidPage, is_possible, turn
@@ -139,7 +139,7 @@ class RVizWindow(Panel):
                 is_bad=level is Level.ERROR,
             ),
             Rows(("Display", "on", "Status"), tuple(self._rows(self.scene.displays, 0)), "Displays"),
-            Words(self.time.words(wall=False).replace("\n", ", ")),
+            Words(self.time.words().replace("\n", ", ")),
         ]
         return [*found, Words(selection(self.selected))] if self.selected else found
 
@@ -381,5 +381,5 @@ def _title(name: str) -> str:
     return f"{kind} ({package})"
 
 
-TYPES = {_title(kind.plugin_name): kind.plugin_name for kind in (Orbit, ThirdPersonFollower, TopDownOrtho, XYOrbit)}
+TYPES = {_title(kind.plugin_name): kind.plugin_name for kind in (Orbit, TopDownOrtho)}
 """The available kinds of view."""

@@ -14,7 +14,7 @@ from rosmini.msgs.sensor_msgs.msg import LaserScan
 from rosmini.viz import ViewError
 from rosmini.viz.rviz import Display, rviz, still, turnable
 from rosmini.viz.rviz.primitives import Pane, Text
-from rosmini.viz.rviz.views import Orbit, ThirdPersonFollower, TopDownOrtho
+from rosmini.viz.rviz.views import Orbit, TopDownOrtho
 
 
 class Given(Display):
@@ -107,9 +107,6 @@ def test_views_look_from_where_files_say(stage):
         scene.context
     )
     assert (orbit.yaw, *orbit.target) == pytest.approx((0.5, 3, 1, 0))
-    behind = ThirdPersonFollower({"Focal Point": {"X": 1, "Y": 0, "Z": 0}, "Target Frame": "base", "Yaw": 0.5})
-    found = behind.viewpoint(scene.context)
-    assert (found.yaw, *found.target) == pytest.approx((0.5 + np.pi / 2, 2, 2, 0))
     assert Orbit({"Target Frame": "nowhere"}).viewpoint(scene.context).target == pytest.approx([0, 0, 0])
 
 

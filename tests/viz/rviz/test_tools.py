@@ -115,7 +115,7 @@ Visualization Manager:
 """
 
 
-@pytest.mark.parametrize("kind", ["Orbit", "XYOrbit", "ThirdPersonFollower", "TopDownOrtho"])
+@pytest.mark.parametrize("kind", ["Orbit", "TopDownOrtho"])
 def test_each_view_can_look_at_a_point_though_its_frame_has_turned(stage, kind):
     scene = stage.scene(Config.parse(VIEW.format(kind)))
     stage.place("map", "base", (3.0, 1.0, 0.0), yaw=1.0)
