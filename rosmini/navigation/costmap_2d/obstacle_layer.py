@@ -99,7 +99,7 @@ class ObstacleLayer(CostmapLayer, plugin="costmap_2d::ObstacleLayer"):
                 bounds.touch(x, y)
 
     def roll(self, robot: Pose) -> tuple[int, int]:
-        """Move the layer's grid with the robot; return the number of cells moved."""
+        """Move the layer's grid with the robot; return the number of cells moved, (columns, rows)."""
         width, height = self.grid.size_m
         return self.grid.move_origin(robot[0] - width / 2, robot[1] - height / 2)
 

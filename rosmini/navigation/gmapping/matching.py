@@ -73,7 +73,7 @@ class Rule(NamedTuple):
 
 @dataclass(frozen=True)
 class Matcher:
-    """The matcher's parameters, named as in http://wiki.ros.org/gmapping#Parameters."""
+    """A scan matcher; its parameters are named as in http://wiki.ros.org/gmapping#Parameters."""
 
     sigma: float = 0.05
     kernel_size: int = 1
