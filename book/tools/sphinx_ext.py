@@ -240,6 +240,16 @@ def separate_ids(
     context["body"] = SVG.sub(lambda found: separate(found[0]), context.get("body", ""))
 
 
+CODE = re.compile(r'(?<=<span class="pre">)[^<]+')
+
+
+def let_names_break(
+    _app: Sphinx, _page: str, _template: str, context: dict[str, Any], _doctree: nodes.Node | None
+) -> None:
+    """Let long names break after a slash or an underscore: `geometry_msgs/Twist` in a narrow column of a table."""
+    context["body"] = CODE.sub(lambda text: re.sub(r"(?<=\w[/_])(?=\w)", "<wbr>", text[0]), context.get("body", ""))
+
+
 def number_chapters(app: Sphinx, env: BuildEnvironment) -> list[str]:
     """Put the number of its part before the number of each chapter: Sphinx counts in each part from 1.
 
@@ -398,6 +408,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.connect("env-get-updated", number_chapters, priority=900)  # after Sphinx has counted
     app.connect("builder-inited", prepare, priority=1)
     app.connect("html-page-context", separate_ids)
+    app.connect("html-page-context", let_names_break)
     app.connect("build-finished", direct_downloads)
     app.connect("build-finished", copy_viewer, priority=998)
     # After every extension has copied its scripts.

@@ -50,7 +50,7 @@ $ rostopic list
 
 > **Bold** words begin this quote, which stays one.
 
-> Plain words begin this one.
+> Plain words begin this one, with `sensor_msgs/LaserScan` and `/tf`.
 
 ```{drawing} ros_parts
 <a id="four-parts"></a>Figure 1: Four parts
@@ -181,6 +181,11 @@ def test_a_stored_figure_is_shown_with_another_caption(page):
     assert "<b>A robot</b>" in page
     assert "What the notebook stored" in page
     assert "Its own caption" not in page
+
+
+def test_long_names_break_after_a_slash_or_an_underscore(page):
+    assert '<span class="pre">sensor_<wbr>msgs/<wbr>LaserScan</span>' in page
+    assert '<span class="pre">/tf</span>' in page
 
 
 def test_an_id_occurs_once_on_a_page(page):
