@@ -50,7 +50,9 @@ $ rostopic list
 
 > **Bold** words begin this quote, which stays one.
 
-> Plain words begin this one, with `sensor_msgs/LaserScan` and `/tf`.
+> Plain words begin this one.
+
+Names are `sensor_msgs/LaserScan` and `/tf`.
 
 ```{drawing} ros_parts
 <a id="four-parts"></a>Figure 1: Four parts
