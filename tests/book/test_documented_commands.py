@@ -126,6 +126,10 @@ cat > crate.sdf << 'EOF'
 EOF
 """
 
+FLAG = """%%terminal
+cp /opt/ros/noetic/share/turtlebot3_description/urdf/turtlebot3_burger.urdf.xacro flag.urdf.xacro
+"""
+
 GRAPHS: dict[str, tuple[str, ...]] = {
     "topics_and_messages": (ROBOT, TALKER),
     "services": (ROBOT, TALKER),
@@ -137,6 +141,7 @@ GRAPHS: dict[str, tuple[str, ...]] = {
     "frames": (ROBOT, SHELF),
     "maps": (FILES,),
     "turtlebot3": (ROBOT,),
+    "family_and_description": (FLAG,),
 }
 """What runs and which files there are, by page, when the commands of a box are typed."""
 
@@ -164,6 +169,8 @@ SKIPPED = {
         f"cd ~/example_ws; {build}source devel/setup.bash; rosmini rosrun example_pkg {script}": READERS_OWN
         for build, script in (("rosmini catkin_make; ", "listener.py"), ("", "talker.py"))
     },
+    "check_urdf flag.urdf": ROBOTS_OWN,
+    "rosrun joint_state_publisher_gui joint_state_publisher_gui": ROBOTS_OWN,
     "gz topic -l": PROCESSES,
     "gz world -m 500": PROCESSES,
     "python3 errand.py": READERS_OWN,

@@ -1,0 +1,93 @@
+"""Wrong answers to the exercises of the chapter Family and description: right ones with a fault put in."""
+
+from __future__ import annotations
+
+from . import file_system
+from .nodes_and_master import wrong
+
+MAST = """
+<robot name="courier" xmlns:xacro="http://ros.org/wiki/xacro">
+  <xacro:include filename="$(find turtlebot3_description)/urdf/turtlebot3_burger.urdf.xacro"/>
+  <link name="mast_link">
+    <visual>
+      <origin xyz="0 0 0.1"/>
+      <geometry><cylinder radius="0.005" length="0.2"/></geometry>
+    </visual>
+  </link>
+  <joint name="mast_joint" type="fixed">
+    <parent link="base_link"/>
+    <child link="mast_link"/>
+    <origin xyz="-0.09 0 0.15"/>
+  </joint>
+  <link name="light_link">
+    <visual><geometry><sphere radius="0.015"/></geometry></visual>
+  </link>
+  <joint name="light_joint" type="fixed">
+    <parent link="mast_link"/>
+    <child link="light_link"/>
+    <origin xyz="0 0 0.2"/>
+  </joint>
+</robot>
+"""
+
+LIFT = """
+import rospy
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import JointState
+
+def on_odom(odom):
+    speed = odom.twist.twist
+    moves = abs(speed.linear.x) > 0.01 or abs(speed.angular.z) > 0.01
+    state = JointState()
+    state.header.stamp = odom.header.stamp
+    state.name = ["lift_joint"]
+    state.position = [0.0 if moves else 1.57]
+    joints.publish(state)
+
+rospy.init_node("lift")
+joints = rospy.Publisher("joint_states", JointState, queue_size=5)
+rospy.Subscriber("odom", Odometry, on_odom, queue_size=1)
+rospy.spin()
+"""
+
+WEIGH = """
+import xml.etree.ElementTree as ElementTree
+import rospy
+from std_msgs.msg import Float32
+
+rospy.init_node("weigh")
+mass = rospy.Publisher("mass", Float32, queue_size=1, latch=True)
+robot = ElementTree.fromstring(rospy.get_param("robot_description"))
+mass.publish(sum(float(each.get("value")) for each in robot.iter("mass")))
+rospy.spin()
+"""
+
+MISTAKES = {
+    "mast": [
+        lambda: ["mast"],
+        file_system.wrong(MAST, '"0 0 0.1"', '"0 0 0"'),
+        file_system.wrong(MAST, '"-0.09 0 0.15"', '"0.09 0 0.15"'),
+        file_system.wrong(MAST, '"0 0 0.2"', '"0 0 0.1"'),
+        file_system.wrong(MAST, 'radius="0.005"', 'radius="0.01"'),
+        file_system.wrong(MAST, '"light_joint" type="fixed"', '"light_joint" type="continuous"'),
+        file_system.wrong(MAST, '<sphere radius="0.015"/>', '<box size="0.03 0.03 0.03"/>'),
+        file_system.wrong(MAST, '<parent link="base_link"/>', '<parent link="base"/>'),
+        file_system.wrong(
+            MAST, '<xacro:include filename="$(find turtlebot3_description)/urdf/turtlebot3_burger.urdf.xacro"/>'
+        ),
+    ],
+    "lift": [
+        wrong("lift.py", LIFT, "abs(speed.linear.x)", "speed.linear.x"),
+        wrong("lift.py", LIFT, " or abs(speed.angular.z) > 0.01", ""),
+        wrong("lift.py", LIFT, "0.0 if moves else 1.57", "1.57 if moves else 0.0"),
+        wrong("lift.py", LIFT, '["lift_joint"]', '["flag_joint"]'),
+        wrong("lift.py", LIFT, "[0.0 if moves else 1.57]", "0.0 if moves else 1.57"),
+    ],
+    "weigh": [
+        wrong("weigh.py", WEIGH, ", latch=True", ""),
+        wrong("weigh.py", WEIGH, "sum(", "max("),
+        wrong("weigh.py", WEIGH, "rospy.spin()", "mass.publish(1.0)\nrospy.spin()"),
+        wrong("weigh.py", WEIGH, 'robot.iter("mass")', 'robot.iter("link")'),
+        wrong("weigh.py", WEIGH, 'sum(float(each.get("value")) for each in robot.iter("mass"))', "1.0017"),
+    ],
+}
