@@ -33,7 +33,7 @@ def _expanded(text: str) -> Robot:
         path = Path(folder, "mast.urdf.xacro")
         path.write_text(text.strip(), encoding="utf-8")
         try:
-            robot = load(xacro.expand(path), meshes=False)
+            robot = load(xacro.expand(path))
         except (UrdfError, RosminiError) as error:
             said = str(error).replace(f"{folder}/", "")
             raise Wrong(f"xacro or URDF refuses this file: {said}", "compare it with flag.urdf.xacro") from error
