@@ -140,6 +140,7 @@ GRAPHS: dict[str, tuple[str, ...]] = {
     "gazebo": (CRATE, "%roslaunch gazebo_ros empty_world.launch gui:=false"),
     "frames": (ROBOT, SHELF),
     "maps": (FILES,),
+    "odometry": ("%rosrun rosmini_sim simulator _board:=true",),
     "turtlebot3": (ROBOT,),
     "family_and_description": (FLAG,),
 }
