@@ -98,8 +98,8 @@ def docks_from(answer: Script, start: float) -> Any:
         expect(abs(x - before) < 0.02, "The robot still drives.", "its speed must reach 0 at a distance of 0.30 m")
         expect(
             abs(distance - 0.30) <= 0.02,
-            f"The laser is {distance:.2f} m from the wall, not 0.30 m.",
-            "make the speed proportional to the distance that is left",
+            f"The laser is {distance:.3f} m from the wall, not 0.30 m within 0.02 m.",
+            "make the speed proportional to the distance that is left; too near the wall, drive back",
         )
         return trial.view()
 
@@ -175,6 +175,6 @@ def low_battery(answer: Script) -> Any:
         expect(
             max(math.hypot(x, y) for x, y, _ in way) > 0.5,
             "The battery was good, and the robot did not drive.",
-            "publish the wish itself while the voltage is 11.0 or more",
+            "publish the wish itself while the voltage is 11.0 or more; does `on_battery` set a global variable?",
         )
         return trial.view()
