@@ -11,6 +11,7 @@ import numpy as np
 
 from rosmini.core.geometry.poses import Pose, transform_points
 from rosmini.sim.models import RobotModel
+from rosmini.sim.shapes import reach_of
 from rosmini.sim.world import Obstacle, World
 
 from .bodies import Body, Crate, Piece, Surface, crate_body, kinematic_body, pieces_of, robot_body
@@ -151,14 +152,9 @@ class Contacts:
 
     def obstruction_of(self, obstacle: Obstacle, pose: Pose) -> str | None:
         """Describe a body that is not fixed and that an obstacle would overlap at `pose`; None if there is room."""
-        pieces, reach = pieces_of(obstacle.shape), self.reach_of(obstacle)
+        pieces, reach = pieces_of(obstacle.shape), reach_of(obstacle.shape)
         bottom, top = obstacle.bottom, obstacle.height
         return next(self._in_the_way(pieces, pose, obstacle.name, bottom, top, reach), None)
-
-    @staticmethod
-    def reach_of(obstacle: Obstacle) -> float:
-        """Return the distance of an obstacle's farthest point from its origin [m]."""
-        return Crate(obstacle, Instant()).reach
 
     def _in_the_way(
         self, pieces: list[Piece], pose: Pose, ignoring: str, bottom: float, top: float, reach: float
@@ -226,10 +222,6 @@ class Contacts:
         if self.instant.ns > until:
             return 0.0
         return sum(force for one, two, force in forces if {one, two} == {body.name, other})
-
-    def set_surface(self, surface: Surface) -> None:
-        """Set the friction coefficients and gravity."""
-        self.surface = surface
 
     def obstacles(self) -> tuple[Obstacle, ...]:
         """Return the movable obstacles at their current poses."""

@@ -18,7 +18,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,22 +28,21 @@ from rosmini.core.errors import RosminiError, nearest
 from rosmini.core.geometry.poses import Pose
 from rosmini.sim.models import LidarModel, RobotModel
 from rosmini.sim.sensors.lidar import scan as measure
-from rosmini.sim.shapes import Part
+from rosmini.sim.shapes import Part, reach_of
 from rosmini.sim.world import Obstacle, World, WorldError
 
 from .bodies import AT_REST, Surface, Velocity
 from .contacts import Touch
 from .cross_sections import obstacle_part, robot_parts
-from .engine_state import EngineState, RobotState
 from .ground import Ground
 from .instant import STEP, to_ns
 from .laser_view import LaserView
 from .odometry import RealWheels
-from .placing import free_pose
 from .population import Population
 from .robot import Robot, make_robot
 from .stepper import VIEW, Stepper
 from .sweep import Sweeps
+from .trails import Leg
 
 Floats = NDArray[np.float64]
 
@@ -54,6 +54,39 @@ __all__ = ["STEP", "Engine", "EngineState", "RobotGone"]
 
 class RobotGone(RosminiError):
     """No robot or obstacle of this name is in the world, or it has been removed."""
+
+
+@dataclass(frozen=True)
+class RobotState:
+    """A robot's name, its model, and its `state`, as returned by `Robot.state`."""
+
+    name: str
+    model: RobotModel
+    state: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class EngineState:
+    """The state of an engine: see `rosmini.sim.engine.Engine.state`."""
+
+    now_ns: int
+    """The time [ns] since the engine began."""
+    now: float
+    """The same [s]."""
+    world: World
+    noise: float
+    surface: Surface
+    slips_ns: int
+    """Time of the next change of the wheels' slip [ns]."""
+    robots: tuple[RobotState, ...]
+    things: dict[str, tuple[Any, ...]]
+    """Poses and velocities of the obstacles that can be pushed or put elsewhere."""
+    movers: dict[str, tuple[int, float, bool, int]]
+    """For each mover: time of its last start or stop [ns], its clock then [s], whether it waits, and its pace."""
+    forces: tuple[float, list[tuple[str, str, float]]]
+    """Time until which they apply [ns], and for each pair of bodies the force between them [N]."""
+    trails: dict[str, tuple[Leg, ...]]
+    """Recent poses of all bodies."""
 
 
 class Engine:
@@ -259,10 +292,22 @@ class Engine:
         self._stepper.commanded(told)
 
     def _free_pose(self, model: RobotModel, pose: Pose, name: str = "") -> Pose:
-        def obstruction(at: Pose) -> str | None:
-            return self.obstruction(model, at, name)
+        """Return `pose` as floats if the robot `name` has room there.
 
-        return free_pose(self.world, model, pose, obstruction, lambda at: self.contacts.obstruction(model, at, name))
+        Raises `WorldError`, with the nearest free position, if there is no room, and if a number is not finite.
+        """
+        if not all(math.isfinite(part) for part in pose):
+            raise WorldError(f"a robot cannot be placed at {pose}: x, y and heading must be finite numbers")
+        x, y, theta = map(float, pose)
+        found = self.obstruction(model, pose, name)
+        if found is not None:
+            free = self.world.free_place(
+                pose, model.footprint, model.height, lambda at: self.contacts.obstruction(model, at, name)
+            )
+            hint = "" if free is None else f". There is room at ({free[0]:.2f}, {free[1]:.2f})"
+            where = f"({x:.2f}, {y:.2f}) with heading {theta:.2f} in the world {self.world.name!r}"
+            raise WorldError(f"no robot can be placed at {where}: {found} is in its way{hint}")
+        return x, y, theta
 
     def obstruction(self, model: RobotModel, pose: Pose, name: str = "") -> str | None:
         """Describe the object that occupies `pose`; None if a robot has room there."""
@@ -299,7 +344,7 @@ class Engine:
         self._obstacles[obstacle.name] = obstacle
         self._world = None
         self._population.add_obstacle_body(obstacle)
-        self._invalidate_near(obstacle.pose, self.contacts.reach_of(obstacle))
+        self._invalidate_near(obstacle.pose, reach_of(obstacle.shape))
 
     def remove_obstacle(self, name: str) -> None:
         """Remove an obstacle at run time. Raises `RobotGone` for an unknown name."""
@@ -310,7 +355,7 @@ class Engine:
         self.contacts.remove(name)
         self.movers.pop(name, None)
         self.laser_view.remove(name)
-        self._invalidate_near(pose, self.contacts.reach_of(gone))
+        self._invalidate_near(pose, reach_of(gone.shape))
 
     def obstacle(self, name: str) -> Obstacle:
         """Return the obstacle of this name as it was inserted. Raises `RobotGone`."""
@@ -373,7 +418,7 @@ class Engine:
         for what, value in changes.items():
             if not (math.isfinite(value) and value >= 0):
                 raise WorldError(f"{what} cannot be {value}; it must be a finite number, 0 or more")
-        self.contacts.set_surface(replace(self.contacts.surface, **changes))
+        self.contacts.surface = replace(self.contacts.surface, **changes)
 
     # -- time ----------------------------------------------------------------------------------------------------
 

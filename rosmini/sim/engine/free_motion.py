@@ -53,21 +53,6 @@ def body_velocity(left: float, right: float, separation: float) -> tuple[float, 
     return ((left + right) / 2, (right - left) / separation)
 
 
-def ramp(speed: float, target: float, acceleration: float, dt: float) -> tuple[float, float]:
-    """Return the distance [m] and the final speed after `dt` seconds from `speed` to `target` at `acceleration`.
-
-    A stop from u takes u / a seconds and the distance u^2 / 2a.
-
-    >>> ramp(0.22, 0.0, 1.0, 1.0)
-    (0.0242, 0.0)
-    """
-    needed = abs(target - speed) / acceleration
-    a = math.copysign(acceleration, target - speed)
-    if dt < needed:
-        return (speed * dt + a * dt * dt / 2, speed + a * dt)
-    return ((speed + target) / 2 * needed + target * (dt - needed), target)
-
-
 def phases(
     left: float, right: float, left_target: float, right_target: float, acceleration: float, dt: float
 ) -> list[Phase]:

@@ -6,24 +6,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.sim.engine.free_motion import body_velocity, ramp, rim_speeds, unicycle
+from rosmini.sim.engine.free_motion import body_velocity, rim_speeds, unicycle
 
 speeds = st.floats(-0.5, 0.5)
 rates = st.floats(-2.0, 2.0)
-times = st.floats(0.0, 3.0)
 
 
 @given(speeds, rates)
 def test_rim_speeds_and_body_velocity_are_inverse(v, w):
     assert body_velocity(*rim_speeds(v, w, 0.16), 0.16) == pytest.approx((v, w), abs=1e-12)
-
-
-@given(speeds, speeds, times, times)
-def test_a_ramp_does_not_depend_on_the_step(speed, target, first, second):
-    way, after = ramp(speed, target, 1.0, first)
-    more, end = ramp(after, target, 1.0, second)
-    whole, last = ramp(speed, target, 1.0, first + second)
-    assert (way + more, end) == pytest.approx((whole, last), abs=1e-12)
 
 
 @given(speeds, rates, rates, rates, st.floats(0.01, 2.0), st.integers(1, 7))
