@@ -15,7 +15,7 @@ from rosmini.ros.rospy.importer import install, ros_is_installed, uninstall
 from rosmini.tools import magics
 from rosmini.viz.embed import book_form
 
-from . import file_cells, logo_cell, looking, node_cell
+from . import file_cells, logo_cell, looking, node_cell, still_widgets
 from .output import progress_in_cell
 from .saving import save_package
 from .session import Session, begin_session, end_session, session_of
@@ -32,6 +32,8 @@ def load(shell: Any) -> None:
     install(shadow=True)
     if kernel_shell() is not None and not book_form():
         machine_code.show_progress = progress_in_cell
+    if book_form():
+        still_widgets.register(shell)
     report_which_ros()
     session = begin_session(shell)
     magics.register(shell, say=session.say, warn=session.warn, around=lambda: session_of(shell).raising())

@@ -76,8 +76,8 @@ def test_one_is_driven_by_keys_while_the_other_explores(graph, tmp_path):
     path = PackageIndex().find_executable("turtlebot3_teleop", "turtlebot3_teleop_key").path
     keys = [(1, "w" * 10), (6, "s"), (7, "x" * 10), (12, "s"), (15, "\x03")]
     run_scripts([ScriptSpec(str(path), ("__ns:=tb3_1",))], graph=graph, stdin=keys, stdout=io.StringIO())
-    # Ten keys are 0.1 m/s, for 5 s: it drives half a metre ahead, and back.
-    assert max(x for x, _, _ in ways) == pytest.approx(0.5, abs=0.05)
+    # Ten keys in a second are 0.1 m/s after two: in 5 s it drives 0.4 m ahead, and then back.
+    assert max(x for x, _, _ in ways) == pytest.approx(0.4, abs=0.05)
     assert ways[-1] == pytest.approx((0.0, 0.0, 0.0), abs=0.05)
     assert math.dist(before["tb3_0"][:2], engine.pose("tb3_0")[:2]) > 1.0
     assert sum(cell >= 0 for cell in maps[-1].data) > 1.3 * seen

@@ -62,3 +62,20 @@ def test_keys_move_a_target_that_is_approached():
     assert max(steps) <= 0.005  # it follows by half a step at most
     assert max(ahead) == pytest.approx(0.22)  # and no faster than a Burger
     assert (ahead[-1], turns[-1]) == (0.0, 0.0)  # it stops the robot when it ends
+
+
+def test_keys_that_are_given_all_at_once_are_read_ten_times_a_second():
+    path = PackageIndex().find_executable("turtlebot3_teleop", "turtlebot3_teleop_key").path
+    with Graph() as graph:
+        heard = []
+        ear = graph.node("ear")
+        ear.subscriber(
+            "/cmd_vel", message_class("geometry_msgs/Twist"), lambda m: heard.append((ear.now(), m.linear.x))
+        )
+        result = run_scripts([ScriptSpec(str(path))], graph=graph, stdin="w" * 10 + "." * 20, duration=30.0)
+    assert (result.status, result.reason) == (0, "ended")
+    (begin, first), *_ = heard
+    reached = next(time for time, speed in heard if speed >= 0.1)
+    assert first == 0.005
+    assert (reached - begin).to_sec() == pytest.approx(1.9, abs=0.05)  # 20 steps of 0.005 m/s, one in 0.1 s
+    assert heard[-1][1] == 0.0
