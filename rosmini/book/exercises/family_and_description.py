@@ -97,7 +97,7 @@ def mast(answer: object) -> Any:
     return robot.show3d()
 
 
-# ---- lift: a joint that follows the robot ----
+# ---- flag_up: a joint that follows the robot ----
 
 DRIVES = (
     ("stands still", 0.0, 0.0, 1.57),
@@ -109,8 +109,8 @@ DRIVES = (
 """What the robot does, its commands [m/s, rad/s], and the position of the joint [rad]."""
 
 
-@exercise("lift", praise="Whoever sees the flag upright steps aside.")
-def lift(answer: Script) -> Any:
+@exercise("flag_up", praise="Whoever sees the flag upright steps aside.")
+def flag_up(answer: Script) -> Any:
     """The node lowers the flag while the robot stands still."""
     got: list[float] = []
     with Trial("room") as trial:

@@ -76,7 +76,7 @@ MISTAKES = {
             MAST, '<xacro:include filename="$(find turtlebot3_description)/urdf/turtlebot3_burger.urdf.xacro"/>'
         ),
     ],
-    "lift": [
+    "flag_up": [
         wrong("lift.py", LIFT, "abs(speed.linear.x)", "speed.linear.x"),
         wrong("lift.py", LIFT, " or abs(speed.angular.z) > 0.01", ""),
         wrong("lift.py", LIFT, "0.0 if moves else 1.57", "1.57 if moves else 0.0"),
