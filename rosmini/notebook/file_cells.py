@@ -13,9 +13,11 @@ from rosmini.core.errors import UsageError
 from rosmini.msgs.importer import forget
 from rosmini.msgs.registry import Registry, registry
 from rosmini.ros.launch.errors import LaunchError
-from rosmini.ros.launch.reader import TEXT, read
+from rosmini.ros.launch.reader import read
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from rosmini.msgs.sources import Source
 
     from .session import Session
@@ -82,23 +84,24 @@ def launch(session: Session, line: str, cell: str) -> None:
     name = _the_word(line, "%%launch NAME.launch")
     if not name.endswith(".launch"):
         raise UsageError(f"%%launch writes a launch file: call it {name.partition('.')[0]}.launch, not {name}")
-    session.package.file("launch", name)
-    for complaint in _complaints(name, cell):
+    path = session.package.file("launch", name)
+    for complaint in _complaints(path, cell):
         session.say(f"WARNING: {complaint}")
     session.package.write("launch", name, cell)
 
 
-def _complaints(name: str, cell: str) -> list[str]:
+def _complaints(path: Path, cell: str) -> list[str]:
     """Return warnings about a launch file, and the things that it needs and that are missing."""
+    name = path.name
     text = "\n" + _DECLARATION.sub("", cell)  # the line of the magic
     try:
-        plan = read(text=text, lenient=True)
+        plan = read(text=text, path=str(path), lenient=True)
     except LaunchError as error:
         if error.missing:  # such as a required argument
             return []
         raise LaunchError(error.message, name, error.line) from None
     missing = [f"{name}:{each.place.line}: {each}" for each in plan.missing if each.kind != "arg"]
-    return [*(each.replace(TEXT, name) for each in plan.warnings), *missing]
+    return [*(each.replace(str(path), name) for each in plan.warnings), *missing]
 
 
 def _define(session: Session, kind: str, line: str, cell: str) -> None:

@@ -83,3 +83,9 @@ def test_what_a_launch_file_lacks_is_told(notebook):
     assert "nowhere" in written
     written = notebook.ok("%%launch a.launch\n<launch>\n  <nod/>\n</launch>")
     assert written == "WARNING: a.launch:3: unrecognized tag <nod>; did you mean node?\n"
+
+
+def test_a_launch_file_may_include_others_of_its_folder(notebook):
+    notebook.ok('%%launch one.launch\n<launch><param name="speed" value="2"/></launch>')
+    assert notebook.ok('%%launch two.launch\n<launch>\n<include file="$(dirname)/one.launch"/>\n</launch>') == ""
+    assert notebook.ok("%roslaunch --dump-params notebook two.launch").startswith("/speed: 2\n")

@@ -108,7 +108,9 @@ class House(Trial):
             else:
                 does = "gets no commands" if top is None else f"drives at {top:g} m/s"
                 expect(
-                    top is not None and abs(top - speed) < 1e-9, f"{said}, {robot} {does}, not at {speed:g} m/s.", hint
+                    top is not None and abs(top - speed) < 1e-9,
+                    f"{said}, {robot} {does}; it should drive at {speed:g} m/s.",
+                    hint,
                 )
 
 
@@ -116,10 +118,11 @@ def _launched(answer: Any, packages: PackageIndex, environ: Mapping[str, str], *
     """Start the text of a launch file; return the house, and how it was started."""
     words = " ".join(f"{name}:={value}" for name, value in args.items())
     said = f"Started with {words}" if args else "Started without arguments"
+    path = str(packages.path("notebook") / "launch" / "answer.launch")
     try:
-        plan = read(text=answer, args=args, packages=packages, environ=environ)
+        plan = read(text=answer, path=path, args=args, packages=packages, environ=environ)
     except RosminiError as error:
-        raise Wrong(f"{said}, roslaunch refuses it: {error}") from error
+        raise Wrong(f"{said}, roslaunch refuses it: {str(error).replace(path, 'answer.launch')}") from error
     unknown = [line for line in plan.warnings if "no launch file has an arg" in line]
     expect(not unknown, f"{said}: {'; '.join(unknown)}.", 'declare it: <arg name="..." default="..."/>')
     return House(plan, packages, said), said

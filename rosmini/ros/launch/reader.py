@@ -35,6 +35,7 @@ def read(
     *files: str | os.PathLike[str],
     args: Mapping[str, str] | None = None,
     text: str | None = None,
+    path: str = TEXT,
     namespace: str = "/",
     packages: PackageIndex | None = None,
     environ: Mapping[str, str] | None = None,
@@ -47,6 +48,7 @@ def read(
         files: paths of the files.
         args: values of arguments, like ``name:=value`` on a command line.
         text: a further launch file, as text.
+        path: path of the text, which need not exist yet: errors name it, and ``$(dirname)`` is its folder.
         namespace: namespace of everything, like ``ROS_NAMESPACE``.
         packages: the packages; by default `PackageIndex()`.
         environ: variables for ``$(env ...)``; by default ``os.environ``.
@@ -67,7 +69,7 @@ def read(
         for file in files:
             reader.read_root(os.fspath(file), None, namespace, given)
         if text is not None:
-            reader.read_root(TEXT, text, namespace, given)
+            reader.read_root(path, text, namespace, given)
         plan = reader.finish(given)
     except LaunchError as error:
         if reader.is_incomplete(str(error)):  # caused by something missing
