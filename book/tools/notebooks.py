@@ -120,6 +120,8 @@ def cell_problems(cell: nbformat.NotebookNode) -> Iterator[str]:
     extra = sorted(set(cell.metadata) - CELL_METADATA)
     if extra:
         yield f"has metadata of a tool or a run ({', '.join(extra)})"
+    if control := re.search(r"[\x00-\x08\x0b-\x1f]", cell.source):
+        yield f"contains the control character {control[0]!r}: a backslash that a program has read as the start of one"
     if cell.cell_type != "code":
         if fence := MISREAD_FENCE.search(cell.source):
             yield (

@@ -101,7 +101,11 @@ def test_each_output_that_differs_is_red_and_the_others_are_green(tmp_path):
     assert (len(red), len(cases) > 10) == (3, True)
 
 
-@pytest.mark.parametrize("tamper", [forget_an_execution, empty_a_cell, skip_a_cell])
+def lose_a_backslash(notebook) -> None:
+    notebook.cells[0].source += "\n$\alpha$"
+
+
+@pytest.mark.parametrize("tamper", [forget_an_execution, empty_a_cell, skip_a_cell, lose_a_backslash])
 def test_a_stored_form_that_was_tampered_with_is_red(tamper):
     notebook = notebooks.read(ROOT / "notebooks" / QUICKEST)
     tamper(notebook)
