@@ -26,9 +26,8 @@ _ABSENT = {
         "write numpy.frombuffer(msg.data, ...) for images, sensor_msgs.point_cloud2.read_points for clouds, and "
         "numpy.array([p.x, p.y, p.z]) for points"
     ),
-    "roslaunch.pmon": (
-        "start nodes with roslaunch.scriptapi.ROSLaunch: what launch() returns has is_alive() and stop()"
-    ),
+    "roslaunch": "write the nodes in a launch file, and start it with the command roslaunch",
+    "rosmsg": "take message._full_text and message._md5sum, or the command rosmsg",
     "rospy.impl": "use the public functions of rospy; rosgraph.Master(rospy.get_name()) asks the Master",
     "rospy_message_converter": (
         "write yaml.safe_load(str(message)), and genpy.message.fill_message_args(message, [dictionary]) to go back"

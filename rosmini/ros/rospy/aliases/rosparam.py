@@ -1,8 +1,9 @@
-"""The functions of rosparam: YAML files and the Parameter Server."""
+"""The module that scripts import as ``rosparam``: YAML files, the Parameter Server (http://wiki.ros.org/rosparam)."""
 
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ from rosmini.core.names import join
 from rosmini.core.rosparam import NS, RosParamException, RosParamIOException, assignments, documents, dumps, parse
 from rosmini.ros.rospy.aliases.rosgraph.masterapi import Master
 from rosmini.ros.rospy.aliases.rosgraph.names import GLOBALNS, get_ros_namespace, make_global_ns
+from rosmini.ros.rospy.mains import run_tool
 
 __all__ = [
     "NAME",
@@ -27,6 +29,7 @@ __all__ = [
     "set_param",
     "set_param_raw",
     "upload_params",
+    "yamlmain",
 ]
 
 NAME = "rosparam"
@@ -129,6 +132,11 @@ def print_params(params: Any, ns: str) -> None:
             print_params(value, name)
         else:
             print(f"{name}={value}")
+
+
+def yamlmain(argv: Sequence[str] | None = None) -> None:
+    """Run a rosparam command line, ``sys.argv`` if None; raise ``SystemExit`` if it fails."""
+    run_tool("rosparam", argv)
 
 
 def _say(verbose: bool, text: str) -> None:
