@@ -76,7 +76,6 @@ class BagInfos(Result):
 def _info_parser() -> Parser:
     parser = Parser("rosbag info [options] BAGFILE1 [BAGFILE2 BAGFILE3 ...]", "Summarize bag files.", "info drive.bag")
     parser.add_option("-y", "--yaml", action="store_true", default=False, help="print YAML")
-    parser.add_option("-k", "--key", help="print the value at a key, such as duration or topics[0].type")
     parser.add_option("--freq", action="store_true", default=False, help="print how often messages came")
     return parser
 
@@ -86,16 +85,11 @@ def info(given: Values, _call: Call) -> BagInfos:
     """Return the contents of bag files, up to the first unreadable one."""
     if not given.words:
         _info_parser().error("You must specify at least 1 bag file.")
-    if given.key and not given.yaml:
-        _info_parser().error("You can only specify key when printing in YAML format.")
     texts: list[str] = []
     for path in given.words:
         try:
             with Bag(path) as bag:
-                if given.yaml:
-                    texts.append(info_yaml(bag, given.key, freq=given.freq) or "")
-                else:
-                    texts.append(info_text(bag, freq=given.freq))
+                texts.append((info_yaml if given.yaml else info_text)(bag, freq=given.freq))
         except (ROSBagException, OSError) as error:
             return BagInfos(texts=(*texts, ""), complaints=(_complaint(path, error),), status=1)
     return BagInfos(texts=tuple(texts))

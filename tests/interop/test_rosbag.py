@@ -115,7 +115,7 @@ def test_they_read_ours_as_we_do(theirs, tmp_path):
 def test_info_prints_the_same(theirs, capsys):
     from rosmini.tools.main import main
 
-    ways = [[], ["--freq"], ["-y"], ["-y", "--freq"], ["-y", "-k", "topics[1].messages"], ["-y", "-k", "end"]]
+    ways = [[], ["--freq"], ["-y"], ["-y", "--freq"]]
     for path, options in [*((theirs["lz4"], way) for way in ways), (theirs["none"], []), (theirs["bz2"], [])]:
         main(["rosbag", "info", *options, str(path)])
         assert capsys.readouterr().out == real("/usr/bin/rosbag", "info", *options, str(path))

@@ -43,7 +43,7 @@ def test_info(bag, capsys):
     assert "\n---\n" in out
     assert "topics:      /chatter   20 msgs    : std_msgs/String\n" in out
     assert "20 msgs @ 1.0 Hz : std_msgs" in run(capsys, "info", "--freq", "t.bag")[1]
-    assert run(capsys, "info", "-y", "-k", "duration", "t.bag") == (0, "19.0\n", "")
+    assert "duration: 19.000000\n" in run(capsys, "info", "-y", "t.bag")[1]
     assert run(capsys, "info", "-f", "t.bag")[::2] == (
         2,
         "Usage: rosbag info [options] BAGFILE1 [BAGFILE2 BAGFILE3 ...]\n\nrosbag: error: no such option: -f\n",
@@ -75,7 +75,7 @@ def test_reindex(bag, capsys):
     status, out, _ = run(capsys, "reindex", "t.bag")
     assert (status, out.splitlines()[0]) == (0, "t.bag: 20 messages")
     assert Path("t.orig.bag").read_bytes() == data[:-30]
-    assert run(capsys, "info", "-y", "-k", "messages", "t.bag")[1] == "20\n"
+    assert "messages: 20\n" in run(capsys, "info", "-y", "t.bag")[1]
 
 
 def test_what_it_does_not_have(bag, capsys):
@@ -122,7 +122,6 @@ def test_playing_to_a_script_and_recording_it(bag):
     ("words", "status", "said"),
     [
         (("info",), 2, "You must specify at least 1 bag file."),
-        (("info", "-k", "duration", "t.bag"), 2, "only specify key when printing in YAML"),
         (("check",), 2, "You must specify a bag file to check."),
         (("check", "none.bag"), 1, "ERROR reading none.bag: "),
         (("filter", "t.bag", "f.bag"), 2, "You must specify an expression."),

@@ -27,13 +27,7 @@ from rosmini.core.files import check
 from rosmini.core.names import canonicalize
 from rosmini.core.time import Time
 
-from .errors import (
-    NotOpenForWriting,
-    ROSBagEncryptNotSupportedException,
-    ROSBagException,
-    ROSBagUnindexedException,
-    in_file,
-)
+from .errors import NotOpenForWriting, ROSBagException, ROSBagUnindexedException, in_file
 from .index import Connection, Index, connection
 from .info import info_text, info_yaml
 from .reader import Input, RawMessage, Reader, index_position, read_index
@@ -58,7 +52,6 @@ if TYPE_CHECKING:
     from rosmini.core.time import TVal
 
     from .summary import ConnectionFilter
-    from .table import Table
 
 
 class Bag:
@@ -406,12 +399,6 @@ class Bag:
     def __iter__(self) -> Iterator[Any]:
         return self.read_messages()
 
-    def table(self, topic: str) -> Table:
-        """Return a topic as a table of columns (see `table`). Raises ``ROSBagException`` if the bag lacks the topic."""
-        from .table import table
-
-        return table(self.message_class(topic), self.read_messages(topic))
-
     def connections(
         self, topics: str | Iterable[str] | None = None, connection_filter: ConnectionFilter | None = None
     ) -> list[Connection]:
@@ -524,15 +511,11 @@ class Bag:
 
         return show("replay", self, **options)
 
-    def info(self, *, freq: bool = False, utc: bool = False) -> str:
-        """Return the output of ``rosbag info``, with frequencies if asked for; times are local, or in UTC."""
-        return info_text(self, freq=freq, utc=utc)
-
     def __str__(self) -> str:
         return info_text(self)
 
-    def _get_yaml_info(self, key: str | None = None) -> str | None:
-        return info_yaml(self, key)
+    def _get_yaml_info(self) -> str:
+        return info_yaml(self)
 
     # -- writing -----------------------------------------------------------------------------------------------------
 
@@ -599,13 +582,6 @@ class Bag:
         """Write the data in memory so that it survives a crash, and continue with the open chunk."""
         if self._writer is not None:
             self._writer.sync()
-
-    def set_encryptor(self, encryptor: str | None = None, param: str | None = None) -> None:  # noqa: ARG002
-        """Accept "no encryption". Raises ``ROSBagEncryptNotSupportedException`` for any other encryptor."""
-        if encryptor:
-            raise ROSBagEncryptNotSupportedException(
-                f"bags are not encrypted here ({encryptor}): use real ROS's `rosbag encrypt`"
-            )
 
 
 def _now() -> Time:

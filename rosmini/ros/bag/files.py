@@ -30,24 +30,20 @@ class BagFiles:
     Args:
         base: the path without number and ``.bag``.
         split: number the files, from 0.
-        max_splits: maximum number of files, including the open one; the oldest is removed.
         compression: of the files.
         chunk_threshold: of the files [bytes].
 
     """
 
-    def __init__(
-        self, base: str, *, split: bool, max_splits: int | None, compression: str, chunk_threshold: int
-    ) -> None:
+    def __init__(self, base: str, *, split: bool, compression: str, chunk_threshold: int) -> None:
         self._base = base
         self._split = split
-        self._max_splits = max_splits
         self._compression = compression
         self._chunk_threshold = chunk_threshold
         self._number = 0
         self.bag: Bag | None = None
         self.paths: list[Path] = []
-        """The finished files that have not been removed."""
+        """The finished files."""
         self.path = Path()
         """Final path of the open file."""
 
@@ -55,8 +51,6 @@ class BagFiles:
         """Open the next file. Raises ``OSError`` if that is not possible."""
         number = f"_{self._number}" if self._split else ""
         self._number += 1
-        while self._max_splits is not None and len(self.paths) >= self._max_splits:
-            self.paths.pop(0).unlink(missing_ok=True)
         self.path = Path(f"{self._base}{number}.bag")
         self.bag = Bag(self._active, "w", self._compression, self._chunk_threshold)
         return self.bag

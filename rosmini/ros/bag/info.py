@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from rosmini.core.yaml_text import documents
-
-from .errors import ROSBagException
 from .records import Compression
 
 if TYPE_CHECKING:
@@ -45,25 +42,20 @@ def human_duration(seconds: float) -> str:
     return f"{seconds:.1f}s"
 
 
-def human_time(seconds: float, *, utc: bool = False) -> str:
+def human_time(seconds: float) -> str:
     """Return a time as the tool prints it: in the local time zone, with hundredths."""
     fraction = f"{seconds - int(seconds):.2f}"[1:]
-    clock = time.gmtime(seconds) if utc else time.localtime(seconds)
-    return time.strftime("%b %d %Y %H:%M:%S", clock) + fraction
+    return time.strftime("%b %d %Y %H:%M:%S", time.localtime(seconds)) + fraction
 
 
-def info_text(bag: Bag, *, freq: bool = True, path: str | None = None, utc: bool = False) -> str:
-    """Return the output of ``rosbag info``; frequencies need ``--freq``, but ``str(bag)`` includes them as in ROS.
-
-    ``path`` replaces the file's own path; ``utc`` shows times in UTC instead of the machine's time zone.
-    """
+def info_text(bag: Bag, *, freq: bool = True) -> str:
+    """Return the output of ``rosbag info``; frequencies need ``--freq``, but ``str(bag)`` includes them as in ROS."""
     rows: list[tuple[str, str]] = []
-    path = path or bag.filename
-    if path is not None:
-        rows.append(("path", path))
+    if bag.filename is not None:
+        rows.append(("path", bag.filename))
     rows.append(("version", _version(bag)))
     if bag.index.messages:
-        rows += _summary(bag, utc=utc)
+        rows += _summary(bag)
         rows += _labelled("types", _type_rows(bag))
         rows += _labelled("topics", _topic_rows(bag.topics(freq=freq)))
     else:
@@ -80,12 +72,12 @@ def _labelled(name: str, values: list[str]) -> list[tuple[str, str]]:
     return [(name if number == 0 else "", value) for number, value in enumerate(values)]
 
 
-def _summary(bag: Bag, *, utc: bool) -> list[tuple[str, str]]:
+def _summary(bag: Bag) -> list[tuple[str, str]]:
     start, end = bag.get_start_time(), bag.get_end_time()
     return [
         ("duration", human_duration(end - start)),
-        ("start", f"{human_time(start, utc=utc)} ({start:.2f})"),
-        ("end", f"{human_time(end, utc=utc)} ({end:.2f})"),
+        ("start", f"{human_time(start)} ({start:.2f})"),
+        ("end", f"{human_time(end)} ({end:.2f})"),
         ("size", human_size(bag.size)),
         ("messages", str(bag.index.messages)),
         *_compression_rows(bag, end - start),
@@ -136,24 +128,8 @@ def _topic_rows(topics: dict[str, TopicTuple]) -> list[str]:
     return rows
 
 
-def info_yaml(bag: Bag, key: str | None = None, *, freq: bool = True) -> str | None:
-    """Return the output of ``rosbag info -y``, or the value at ``key`` (such as ``topics[0].type``) as ``-k`` does.
-
-    Raises ``ROSBagException`` if there is no such key.
-    """
-    text = _yaml(bag, freq=freq)
-    if not key:
-        return text
-
-    def failure(message: str, _source: str, _line: int | None) -> ROSBagException:
-        # topic names may be anything
-        return ROSBagException(f'Error getting key "{key}": what the bag says: {message}')
-
-    tree = next((value for value, _ in documents(text, "the bag", failure)), None)
-    return _shown(_lookup(tree, key))
-
-
-def _yaml(bag: Bag, *, freq: bool) -> str:
+def info_yaml(bag: Bag, *, freq: bool = True) -> str:
+    """Return the output of ``rosbag info -y``."""
     lines = [f"path: {bag.filename}"] if bag.filename is not None else []
     lines.append(f"version: {_version(bag)}")
     if not bag.index.messages:
@@ -182,28 +158,3 @@ def _yaml(bag: Bag, *, freq: bool) -> str:
         if found.frequency is not None:
             lines.append(f"      frequency: {found.frequency:.4f}")
     return "\n".join(lines) + "\n"
-
-
-def _lookup(tree: Any, key: str) -> Any:
-    """Return the value at a path such as ``topics[1].messages``."""
-    found = tree
-    try:
-        for part in key.replace("[", ".[").split("."):
-            if part.startswith("[") and part.endswith("]"):
-                found = found[int(part[1:-1])]
-            elif part:
-                found = found[part]
-    except (KeyError, IndexError, TypeError, ValueError) as error:
-        raise ROSBagException(f'Error getting key "{key}"') from error
-    return found
-
-
-def _shown(value: Any, indent: int = 0) -> str:
-    margin = "  " * indent
-    if isinstance(value, list):
-        return "".join(f"{margin}- {_shown(item, indent + 1)}\n" for item in value)
-    if isinstance(value, dict):
-        return "\n".join(
-            (margin if number else "") + f"{name}: {item}" for number, (name, item) in enumerate(value.items())
-        )
-    return margin + str(value)

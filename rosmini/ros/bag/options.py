@@ -43,7 +43,6 @@ def record_parser() -> Parser:
     add = parser.add_option
     add("-a", "--all", action="store_true", default=False, help="all topics, those that come later included")
     add("-e", "--regex", action="store_true", default=False, help="the topics are regular expressions")
-    add("-p", "--publish", action="store_true", default=False, help="publish on begin_write that recording begins")
     add("-x", "--exclude", metavar="EXCLUDE_REGEX", help="not the topics that match (with -a or -e)")
     add("-q", "--quiet", action="store_true", default=False, help="print nothing")
     add("-o", "--output-prefix", metavar="PREFIX", help="name the bag PREFIX_DATE.bag")
@@ -54,7 +53,6 @@ def record_parser() -> Parser:
         default=False,
         help="begin the next bag when one is full: see --size, --duration",
     )
-    add("--max-splits", type="int", help="keep so many bags; the oldest is removed")
     add("--size", type="int", help="a bag is full at SIZE MB")
     add("--duration", help="a bag is full after DURATION seconds, or minutes (5m), or hours (1h)")
     add(
@@ -67,7 +65,6 @@ def record_parser() -> Parser:
     )
     add("--chunksize", type="int", default=768, metavar="SIZE", help="chunks of SIZE KB (768)")
     add("-l", "--limit", type="int", metavar="NUM", help="only NUM messages of each topic")
-    add("--node", dest="of_node", help="all topics to which this node subscribes")
     add(
         "-j",
         "--bz2",
@@ -78,8 +75,6 @@ def record_parser() -> Parser:
         help="compress with bz2",
     )
     add("--lz4", dest="compression", action="store_const", const=Compression.LZ4, help="compress with lz4")
-    add("--tcpnodelay", action="store_true", help="accepted; there is no TCP within one process")
-    add("--udp", action="store_true", help="accepted; there is no UDP within one process")
     add("--repeat-latched", action="store_true", default=False, help="begin each bag with what is latched")
     return parser  # fmt: skip
 
@@ -97,7 +92,7 @@ def record_options(args: Sequence[str]) -> RecordOptions:
     """Return the recording options of a command line. Raises ``UsageError``."""
     parser = record_parser()
     given, topics = parser.parse_args(list(args))
-    if not (topics or given.all or given.of_node):
+    if not (topics or given.all):
         parser.error("You must specify a topic name or else use the '-a' option.")
     try:
         return _options(
@@ -115,12 +110,12 @@ def record_options(args: Sequence[str]) -> RecordOptions:
         parser.error(str(error))
 
 
-def _several(_option: Any, _text: str, _value: Any, parser: Any, name: str) -> None:
+def _several(_option: Any, _text: str, _value: Any, parser: Any) -> None:
     """Take all words up to the next option."""
     taken = []
     while parser.rargs and not (parser.rargs[0].startswith("-") and len(parser.rargs[0]) > 1):
         taken.append(parser.rargs.pop(0))
-    setattr(parser.values, name, [*getattr(parser.values, name), *taken])
+    parser.values.topics = [*parser.values.topics, *taken]
 
 
 def play_parser() -> Parser:
@@ -149,20 +144,9 @@ def play_parser() -> Parser:
     add("-r", "--rate", type="float", default=1.0, metavar="FACTOR", help="play FACTOR times as fast")
     add("-s", "--start", type="float", default=0.0, metavar="SEC", help="begin SEC seconds into the bags")
     add("-u", "--duration", type="float", metavar="SEC", help="play SEC seconds of the bags")
-    add("--skip-empty", type="float", metavar="SEC", help="leave out times of more than SEC seconds without a message")
     add("-l", "--loop", action="store_true", default=False, help="begin again at the end")
     add("-k", "--keep-alive", action="store_true", default=False, help="stay at the end, for what is latched")
-    add("--try-future-version", action="store_true", help="accepted; there is no version after 2.0")
-    for name, text in (("topics", "play these topics"), ("pause_topics", "pause at these topics")):
-        add(
-            "--" + name.replace("_", "-"),
-            dest=name,
-            default=[],
-            action="callback",
-            callback=_several,
-            callback_args=(name,),
-            help=text,
-        )
+    add("--topics", dest="topics", default=[], action="callback", callback=_several, help="play these topics")
     add("--bags", help="a bag, after --topics")
     add("--wait-for-subscribers", action="store_true", default=False, help="begin when each topic has a subscriber")
     return parser  # fmt: skip
@@ -177,8 +161,7 @@ def play_options(args: Sequence[str]) -> tuple[list[str], PlayOptions]:
     if not bags:
         parser.error("You must specify at least 1 bag file to play back.")
     try:
-        topics, pauses = tuple(given.topics), tuple(given.pause_topics)
-        return bags, _options(PlayOptions, given, topics=topics, pause_topics=pauses)
+        return bags, _options(PlayOptions, given, topics=tuple(given.topics))
     except ROSBagException as error:
         parser.error(str(error))
 

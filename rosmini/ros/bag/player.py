@@ -40,10 +40,8 @@ class PlayOptions:
     hz: float = 100.0
     delay: float = 0.2
     queue: int = 100
-    skip_empty: float | None = None
     keep_alive: bool = False
     topics: tuple[str, ...] = ()
-    pause_topics: tuple[str, ...] = ()
     prefix: str = ""
     wait_for_subscribers: bool = False
     quiet: bool = False
@@ -52,7 +50,7 @@ class PlayOptions:
         for name in ("rate", "hz"):
             if not getattr(self, name) > 0:
                 raise ROSBagException(f"{name} must be more than zero, not {getattr(self, name)}")
-        for name in ("start", "duration", "delay", "queue", "skip_empty"):
+        for name in ("start", "duration", "delay", "queue"):
             value = getattr(self, name)
             if value is not None and not value >= 0:
                 raise ROSBagException(f"{name} cannot be less than zero: {value}")
@@ -125,7 +123,7 @@ class Player:
         if not starts:
             raise ROSBagException(f"there is no message in {', '.join(str(bag.filename) for bag in self._bags)}")
         topics = {conn.topic for bag in self._bags for conn in bag.connections()}
-        for topic in (*self.options.topics, *self.options.pause_topics):
+        for topic in self.options.topics:
             if self.node.resolve(topic) not in topics and topic not in topics:
                 raise self._bags[0].no_topic(topic)
         start = min(starts) + int(self.options.start * 1e9)
@@ -237,12 +235,7 @@ class Player:
         if self._next is None:
             self._at_end()
             return
-        topic, time = self._publish_next()
-        if topic in self.options.pause_topics:
-            self._hold(time)
-            return
-        if self._next is not None:
-            self._skip(time, self._next[0].time)
+        self._publish_next()
         when = self._due(self.end if self._next is None else self._next[0].time)
         if when <= self._scheduler.now_ns():
             self._cancel = _nothing
@@ -250,13 +243,8 @@ class Player:
         else:
             self._cancel = self._scheduler.call_at(when, self._fire).cancel
 
-    def _skip(self, time: int, following: int) -> None:
-        """Skip a period without messages."""
-        gap = self.options.skip_empty
-        if gap is not None and following - time > gap * 1e9:
-            self._began, self._origin = self._scheduler.now_ns(), following
-
-    def _publish_next(self) -> tuple[str, int]:
+    def _publish_next(self) -> int:
+        """Publish the next message, and return its time."""
         assert self._next is not None  # noqa: S101 - asked before
         stored, bag = self._next
         conn, time = stored.connection, stored.time
@@ -270,7 +258,7 @@ class Player:
             kept[key] = message  # the newest comes last
         self._publishers[topic].publish(_as_recorded(message))
         self.played += 1
-        return conn.topic, time
+        return time
 
     def _tick(self) -> None:
         if self.done or self.paused:
@@ -314,7 +302,7 @@ class Player:
     def _step(self) -> None:
         if self.options.clock and self._next is not None:
             self._publishers["/clock"].publish(clock=Time.from_nsec(self._next[0].time))
-        _, self._origin = self._publish_next()
+        self._origin = self._publish_next()
 
     # -- the end ---------------------------------------------------------------------------------------------------
 

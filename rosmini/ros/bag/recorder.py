@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import RosminiError
-from rosmini.msgs import message_class
 
 from .errors import BagFull, ROSBagException
 from .files import BagFiles, base_name
@@ -21,7 +20,7 @@ from .records import Compression, check_compression
 from .writer import CHUNK_THRESHOLD
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable
     from pathlib import Path
 
     from rosmini.core.graph import Node, Subscriber
@@ -50,18 +49,15 @@ class RecordOptions:
     all: bool = False
     regex: bool = False
     exclude: str | None = None
-    of_node: str | None = None
     output_name: str | None = None
     output_prefix: str | None = None
     split: bool = False
-    max_splits: int | None = None
     size: int | None = None
     duration: float | None = None
     buffsize: int = 256 * MEGABYTE
     chunksize: int = CHUNK_THRESHOLD
     limit: int | None = None
     compression: str = Compression.NONE
-    publish: bool = False
     repeat_latched: bool = False
     quiet: bool = False
     patterns: tuple[re.Pattern[str], ...] = field(init=False)
@@ -69,15 +65,15 @@ class RecordOptions:
 
     def __post_init__(self) -> None:
         check_compression(self.compression)
-        if not (self.topics or self.all or self.of_node):
-            raise ROSBagException("say what to record: topics, all=True (-a), or a node (--node)")
-        if self.exclude is not None and not (self.all or self.regex or self.of_node):
+        if not (self.topics or self.all):
+            raise ROSBagException("say what to record: topics, or all=True (-a)")
+        if self.exclude is not None and not (self.all or self.regex):
             raise ROSBagException("exclude takes away from all=True (-a) or from regex=True (-e)")
         if self.split and not (self.size or self.duration):
             raise ROSBagException("split needs a size or a duration after which the next file begins")
         if self.output_name is not None and self.output_prefix is not None:
             raise ROSBagException("give a name (-O) or a prefix (-o), not both")
-        for name in ("max_splits", "size", "duration", "limit"):
+        for name in ("size", "duration", "limit"):
             value = getattr(self, name)
             if value is not None and not value > 0:
                 raise ROSBagException(f"{name} must be more than zero, not {value}")
@@ -88,14 +84,12 @@ class RecordOptions:
     @property
     def follows(self) -> bool:
         """True if topics advertised later may have to be recorded too."""
-        return self.all or self.regex or self.of_node is not None
+        return self.all or self.regex
 
-    def wants(self, topic: str, subscribed: Iterable[str]) -> bool:
-        """Return True if a topic is to be recorded; ``subscribed`` are the topics of the node to follow."""
+    def wants(self, topic: str) -> bool:
+        """Return True if a topic is to be recorded."""
         if self.excluded is not None and self.excluded.fullmatch(topic):
             return False
-        if self.of_node is not None and topic in subscribed:
-            return True
         return self.all or any(pattern.fullmatch(topic) for pattern in self.patterns)
 
 
@@ -186,7 +180,6 @@ class Recorder:
         self._files = BagFiles(
             base_name(options.output_name, options.output_prefix, now, simulated=self.node.graph.simulated),
             split=options.split,
-            max_splits=options.max_splits,
             compression=options.compression,
             chunk_threshold=options.chunksize,
         )
@@ -199,9 +192,6 @@ class Recorder:
             self._finish()
             raise
         self._drain()
-        if options.publish:
-            string = message_class("std_msgs/String")
-            self.node.publisher("begin_write", string, latch=True).publish(str(self._files.path))
         if options.follows:
             self._follow()
             self.node.run(self._keep_following, f"{self.node.name} new topics")
@@ -228,13 +218,7 @@ class Recorder:
     def _wanted(self) -> list[str]:
         state = self.node.master.ask("getSystemState")
         published = {topic for topic, names in state[0] if names != [self.node.name]}
-        followed = self.options.of_node and self.node.resolve(self.options.of_node)
-        subscribed = {topic for topic, names in state[1] if followed in names} if followed else set()
-        return sorted(
-            topic
-            for topic in published | subscribed
-            if topic not in self._subscribers and self.options.wants(topic, subscribed)
-        )
+        return sorted(topic for topic in published if topic not in self._subscribers and self.options.wants(topic))
 
     def _keep_following(self) -> None:
         """Subscribe to new topics at once, before their publisher can send a message."""

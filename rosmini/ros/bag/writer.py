@@ -1,8 +1,7 @@
 """Writing a bag: messages are collected in chunks, each followed by its index data; the index comes last.
 
 A bag is always intact up to its last flush: after a power failure, ``rosbag reindex`` finds everything that was
-flushed. If the disk is full, as many pending messages as fit are written, with an index, so that no bag is left
-without one.
+flushed.
 """
 
 from __future__ import annotations
@@ -100,7 +99,7 @@ class Writer:
     def write(self, number: int, nanoseconds: int, data: bytes) -> None:
         """Write a message of the connection ``number``, recorded at a time [ns].
 
-        Raises ``BagFull`` when there is no more room; the bag is then closed and has an index.
+        Raises ``BagFull`` when there is no more room; the bag is then closed, and has no index.
         """
         if self.closed:
             raise ROSBagException(f"{self._name} is closed: no message can be written to it any more")
@@ -156,8 +155,7 @@ class Writer:
         except OSError as error:
             if error.errno not in FULL:
                 raise
-            records, self._records, self._size = self._records, [], 0
-            raise self._salvage(records, error) from error
+            raise self._full(error) from error
 
     def _write_chunk(self, records: list[Entry]) -> Chunk:
         parts = _gathered(part for _, _, *both in records for part in both)
@@ -186,51 +184,13 @@ class Writer:
         self._put(self._position, b"".join(index_records(chunk, chunk.entries or {})))
         self._position = self._end
 
-    def _salvage(self, records: list[Entry], error: OSError) -> BagFull:
-        """Write as many pending messages as fit besides the index, and close the bag."""
-        total = self.index.messages + sum(record[0] >= 0 for record in records)
-        indexed = self._finish_with_some(records)
-        while not indexed and self.index.chunks:  # no room for an index: drop the last chunk
-            chunk = self.index.chunks.pop()
-            records = self._records_of(chunk)
-            self._position = chunk.position
-            indexed = self._finish_with_some(records)
+    def _full(self, error: OSError) -> BagFull:
+        """Close the bag, which stays without an index, and return the error."""
         self.closed = True
-        kept = self.index.messages
         return BagFull(
-            f"{self._name} cannot grow any more ({error.strerror}). It holds {kept:,} messages and is closed; "
-            f"the last {total - kept:,} did not fit. Make room, or record with --lz4 or --bz2."
+            f"{self._name} cannot grow any more ({error.strerror}), and is closed. Make room, then "
+            f"`rosbag reindex {self._name}` saves what it holds; --lz4 or --bz2 needs less room."
         )
-
-    def _finish_with_some(self, records: list[Entry]) -> bool:
-        """Write half of the records, or a quarter and so on, and the index.
-
-        Return False if there is no room at all.
-        """
-        keep = len(records)
-        while keep:
-            keep //= 2
-            if self._finish_with(records[:keep]):
-                return True
-        return False
-
-    def _finish_with(self, records: list[Entry]) -> bool:
-        """Write a last chunk and the index; if they do not fit, restore the file's length and return False."""
-        at, chunks = self._position, len(self.index.chunks)
-        self._file.truncate(at)
-        try:
-            if records:
-                self.index.chunks.append(self._write_chunk(records))
-                self._position = self._end
-            self._write_end()
-        except OSError as error:
-            if error.errno not in FULL:
-                raise
-            self._position = at
-            del self.index.chunks[chunks:]
-            self._file.truncate(at)
-            return False
-        return True
 
     # -- the end ---------------------------------------------------------------------------------------------------
 
@@ -244,27 +204,8 @@ class Writer:
         except OSError as error:
             if error.errno not in FULL:
                 raise
-            raise self._salvage([], error) from error
+            raise self._full(error) from error
         self.closed = True
-
-    def _records_of(self, chunk: Chunk) -> list[Entry]:
-        from .reader import Reader, message_at
-
-        reader = Reader(self._file, self.index, self._name)
-        data = reader.data(chunk)
-        entries = sorted(
-            (offset, number, secs * NSECS + nsecs)
-            for number, packed in reader.entries(chunk).items()
-            for secs, nsecs, offset in index_entry.iter_unpack(packed)
-        )
-        records: list[Entry] = [
-            (-1, 0, self._connection_record(self.index.connections[number]), b"") for number in chunk.counts
-        ]
-        for offset, number, when in entries:
-            message = message_at(data, offset, chunk)
-            head = index_entry.pack(*divmod(when, NSECS), len(message))
-            records.append((number, when, self._begin(number) + head, message))
-        return records
 
     def _write_end(self) -> None:
         """Write the index after the last chunk, then its position into the first record."""

@@ -94,12 +94,10 @@ def test_the_connection_headers_are_those_of_the_graph(graph, tmp_path):
         ({"topics": ("/a/.*",), "regex": True}, {"/a/one", "/a/two"}),
         ({"topics": ("/[ab]/.*",), "regex": True, "exclude": ".*two"}, {"/a/one", "/b/one"}),
         ({"topics": ("a/one", "/b/one")}, {"/a/one", "/b/one"}),
-        ({"of_node": "listener"}, {"/a/two"}),
     ],
 )
 def test_which_topics(graph, tmp_path, fields, expected):
     """Those that are there, and those that come later."""
-    graph.node("listener").subscriber("/a/two", String)
     first = graph.node("first").publisher("/a/one", String)
     recorder = record(graph, tmp_path / "x", **fields)
     graph.run(1.0)
@@ -145,16 +143,6 @@ def test_splitting_loses_nothing_and_keeps_what_is_latched(graph, tmp_path, fiel
     assert [text for path in paths for text in texts(path)] == [str(i) for i in range(500)]
     assert all(texts(path, "/map") == ["world"] for path in paths)
     assert list(tmp_path.glob("*.active")) == []
-
-
-def test_only_so_many_files_are_kept(graph, tmp_path):
-    recorder = record(graph, tmp_path / "x", "/chatter", split=True, duration=1.0, max_splits=2)
-    lane = talker(graph, 550, 100)
-    graph.run(until=lambda: lane.idle)
-    recorder.stop()
-    assert sorted(path.name for path in tmp_path.iterdir()) == [path.name for path in recorder.paths]
-    assert len(recorder.paths) == 2
-    assert texts(recorder.path)[-1] == "549"
 
 
 def test_a_buffer_that_is_too_small_says_so(graph, tmp_path, capsys):
@@ -209,24 +197,18 @@ for number in range(50 + int({count})):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="limits of file sizes are POSIX's")
-@pytest.mark.parametrize(
-    ("count", "words"), [(1000, []), *nightly((60, []), (1000, ["--lz4"]), (1000, ["--split", "--size", "1"]))]
-)
-def test_a_recording_on_a_full_disk_fails_and_stays_readable(tmp_path, count, words):
+@pytest.mark.parametrize(("count", "words"), [(1000, []), *nightly((60, []), (1000, ["--split", "--size", "1"]))])
+def test_a_recording_on_a_full_disk_fails_and_can_be_repaired(tmp_path, count, words):
     script = tmp_path / "talker.py"
-    text = TALKER.format(count=count)
-    script.write_text(
-        text.replace('"x" * 1000', "hex((number + 7) ** 1200)[-1000:]") if words == ["--lz4"] else text,
-        encoding="utf-8",
-    )
+    script.write_text(TALKER.format(count=count), encoding="utf-8")
     done = run([sys.executable, "-c", LIMITED, str(script), "-O", str(tmp_path / "trip"), *words])  # fmt: skip
     assert done.returncode == 1, done.stdout + done.stderr
     assert done.stderr.count("[ERROR]") == 1
     assert "cannot grow any more" in done.stderr
     (bag,) = tmp_path.glob("trip*")
     assert bag.suffix == ".bag"
+    reindex(bag)
     found = [m.data[:5] for _, m, _ in Bag(bag)]
-    assert f"It holds {len(found)} messages" in done.stderr
     assert len(found) > 20
     assert found == sorted(found)
 
@@ -321,7 +303,6 @@ def play(graph: Graph, bag, **fields) -> Player:
         ({"rate": 4.0}, "0123456789", [0.2 + i / 4 for i in range(10)]),
         ({"start": 3.0, "duration": 2.5}, "345", [0.2, 1.2, 2.2]),
         ({"immediate": True, "delay": 0.0}, "0123456789", [0.0] * 10),
-        ({"rate": 10.0, "skip_empty": 0.5}, "0123456789", [0.2] * 10),
     ],
 )
 def test_when_messages_are_published(graph, bag, fields, texts, times):
@@ -366,17 +347,6 @@ def test_pause_step_and_resume(graph, bag):
     graph.run()
     assert "".join(heard.texts) == "0123456789"
     assert not player.step() if player.paused else player.done
-
-
-def test_pause_topics(graph, bag):
-    heard = Heard(graph)
-    player = play(graph, bag, topics=("/chatter", "/map"), pause_topics=("/map",))
-    graph.run(5.0)
-    assert player.paused
-    assert heard.texts == []
-    player.resume()
-    graph.run()
-    assert "".join(heard.texts) == "0123456789"
 
 
 def test_loop_goes_on(graph, bag):
