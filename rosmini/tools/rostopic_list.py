@@ -103,9 +103,7 @@ class TopicInfo(Result):
 
 def info_parser() -> Parser:
     """Return the parser of ``rostopic info``."""
-    parser = parser_of("info /topic", "Show the type of a topic, and who is on it.", "info /chatter")
-    parser.flag("-v", dest="verbose", help="with the number of messages that full queues have dropped (not in ROS)")
-    return parser
+    return parser_of("info /topic", "Show the type of a topic, and who is on it.", "info /chatter")
 
 
 def info(given: Values, call: Call) -> TopicInfo:
@@ -115,7 +113,7 @@ def info(given: Values, call: Call) -> TopicInfo:
     if len(given.words) > 1:
         info_parser().error("you may only specify one topic name")
     name = global_name(given.words[0])
-    about = topics.about(call.peers, name, count_drops=given.verbose)
+    about = topics.about(call.peers, name)
     if about is None:
         raise VerbError(f"ERROR: Unknown topic {name}\n{topics.what_next(call.peers, name)}")
     return TopicInfo(about=about)

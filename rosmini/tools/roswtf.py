@@ -19,7 +19,6 @@ from rosmini.ros.introspection.wtf.heard_rules import Heard, Transform
 from rosmini.ros.introspection.wtf.survey import survey
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from optparse import Values
 
     from rosmini.ros.launch import Plan
@@ -96,10 +95,6 @@ def look(given: Values, call: Call) -> Diagnosis:
         return Diagnosis(context=context, static=tuple(static), online=None, offline_because=str(error), status=1)
     online = [found for rule in graph_rules.RULES for found in rule(graph)]
     online += [found for tf_rule in heard_rules.RULES for found in tf_rule(heard)]
-    if plan is not None and not isinstance(plan, Finding):
-        from rosmini.ros.launch.wtf import online_findings
-
-        online += online_findings(plan, graph)
     return Diagnosis(context=context, static=tuple(static), online=tuple(online))
 
 
@@ -137,16 +132,9 @@ def _listen(call: Call, seconds: float) -> Heard:
     call.say(f"listening to /tf and /rosout for {seconds:g} s")
     with tool_node(graph, "roswtf") as node:
 
-        def transforms(is_static: bool) -> Callable[[Any], None]:
-            def hear(message: Any) -> None:
-                sender = str((getattr(message, "_connection_header", None) or {}).get("callerid", "unknown"))
-                now = graph.now().to_nsec() or None  # simulated time that has not begun
-                for each in message.transforms:
-                    stamp = each.header.stamp.to_nsec()
-                    parent, child = (frame.lstrip("/") for frame in (each.header.frame_id, each.child_frame_id))
-                    heard.transforms.append(Transform(parent, child, sender, stamp, now, is_static))
-
-            return hear
+        def transforms(message: Any) -> None:
+            sender = str((getattr(message, "_connection_header", None) or {}).get("callerid", "unknown"))
+            heard.transforms.extend(Transform(each.child_frame_id.lstrip("/"), sender) for each in message.transforms)
 
         def log(message: Any) -> None:
             if message.level >= ROSOUT_ERROR:
@@ -155,8 +143,8 @@ def _listen(call: Call, seconds: float) -> Heard:
                 heard.warnings.append((message.name, message.msg))
 
         tf = message_class("tf2_msgs/TFMessage")
-        node.subscriber("/tf", tf, transforms(False))
-        node.subscriber("/tf_static", tf, transforms(True))
+        node.subscriber("/tf", tf, transforms)
+        node.subscriber("/tf_static", tf, transforms)
         node.subscriber("/rosout_agg", message_class("rosgraph_msgs/Log"), log)
         span = Span.of(graph, round(max(seconds, 0.0) * 1e9))
         for _ in span.every(100_000_000):

@@ -2,14 +2,12 @@
 
 import io
 import json
-import logging
 import os
 import sys
 import tempfile
 
 import rosgraph
 import rosgraph.names
-import rosgraph.roslogging
 import roslib.names
 import rosparam
 
@@ -78,12 +76,4 @@ facts["commands"] = [
 with open(path, encoding="utf-8") as dumped:
     facts["dumped"] = dumped.read()
 
-# ---- log records ----
-
-os.environ["ROSCONSOLE_FORMAT"] = "${severity} ${logger} ${line} ${function} ${message} ${other}"
-out, err = io.StringIO(), io.StringIO()
-handler = rosgraph.roslogging.RosStreamHandler(stdout=out, stderr=err)
-for level in (10, 20, 30, 40, 50):
-    handler.emit(logging.LogRecord("name", level, "file.py", 7, "text %s %d", ("x", level), None, "function"))
-facts["records"] = [out.getvalue(), err.getvalue()]
 print(json.dumps(facts))

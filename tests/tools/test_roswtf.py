@@ -90,7 +90,7 @@ def transforms(*links: tuple[str, str, str]) -> Callable[[Graph], None]:
     [
         (misspelt, ["no_publisher"]),
         (a_callback_that_fails, ["logged_errors"]),
-        (transforms(("one", "map", "odom"), ("two", "base", "laser")), ["several_trees"]),
+        (transforms(("one", "map", "odom"), ("two", "map", "odom")), ["repeated_senders"]),
         (a_first_message_that_is_lost, ["logged_warnings"]),
         (no_way_for_the_robot, ["logged_warnings"]),
     ],

@@ -26,6 +26,7 @@ _ABSENT = {
         "write numpy.frombuffer(msg.data, ...) for images, sensor_msgs.point_cloud2.read_points for clouds, and "
         "numpy.array([p.x, p.y, p.z]) for points"
     ),
+    "rosgraph.roslogging": "use rospy.loginfo and its like, or the module logging: logging.getLogger('rosout')",
     "roslaunch": "write the nodes in a launch file, and start it with the command roslaunch",
     "rosmsg": "take message._full_text and message._md5sum, or the command rosmsg",
     "rospy.impl": "use the public functions of rospy; rosgraph.Master(rospy.get_name()) asks the Master",

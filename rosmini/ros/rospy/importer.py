@@ -27,7 +27,7 @@ _ALIASES = {
     "interactive_markers": "interactive_marker_server menu_handler",
     "message_filters": "",
     "rosbag": "",
-    "rosgraph": "masterapi names rosenv roslogging",
+    "rosgraph": "masterapi names rosenv",
     "roslib": "names packages scriptutil",
     "rosnode": "",
     "rosparam": "",

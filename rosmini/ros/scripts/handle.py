@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import signal
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import RosminiError, ScriptError
 from rosmini.core.graph.event_queue import span_ns
@@ -36,45 +36,6 @@ KILLED = -9
 
 class StillRunning(ScriptError, TimeoutError):
     """``wait(timeout)`` has timed out."""
-
-
-class Handle(Protocol):
-    """Interface of anything that runs.
-
-    ``returncode`` is None until the end, then the exit status, or ``-N`` if signal N ended it.
-    """
-
-    args: tuple[str, ...]
-    returncode: int | None
-
-    @property
-    def name(self) -> str:
-        """Name in output and messages."""
-
-    @property
-    def output(self) -> str | None:
-        """Captured output so far, or None."""
-
-    def start(self) -> None:
-        """Start it, or restart it after its end. Raises ``ScriptError`` while it runs."""
-
-    def poll(self) -> int | None:
-        """Return ``returncode``."""
-
-    def wait(self, timeout: float | None = None) -> int:
-        """Wait until it ends, up to ``timeout`` seconds; return ``returncode``. Raises ``StillRunning``."""
-
-    def send_signal(self, signum: int) -> None:
-        """Send it a signal."""
-
-    def terminate(self, sigint_timeout: float = ..., sigterm_timeout: float = ...) -> None:
-        """End it as roslaunch does, without waiting: SIGINT, after a timeout SIGTERM, after another one ``kill``."""
-
-    def kill(self) -> None:
-        """Kill it without warning."""
-
-    def respawn(self, delay: float = 0.0) -> None:
-        """Restart it with the same arguments after ``delay`` seconds. Raises ``ScriptError`` while it runs."""
 
 
 def shell_status(returncode: int) -> int:

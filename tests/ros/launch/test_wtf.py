@@ -8,9 +8,8 @@ import pytest
 
 from rosmini.core.packages import PackageIndex
 from rosmini.ros.introspection.wtf.findings import Finding
-from rosmini.ros.introspection.wtf.survey import Node, Survey
 from rosmini.ros.launch import Plan
-from rosmini.ros.launch.wtf import load, online_findings, static_findings
+from rosmini.ros.launch.wtf import load, static_findings
 
 from .workspace import make
 
@@ -27,7 +26,6 @@ def packages(tmp_path: Path) -> PackageIndex:
             '<node pkg="turtlebot3_bringup" type="x" name="c"/><rosparam file="$(find speaking)/no.yaml"/>'
         ),
         far='<machine name="far" address="10.9.9.9"/><node pkg="speaking" type="talker.py" name="f" machine="far"/>',
-        uses='<include file="$(find std_msgs)/x.launch"/><node pkg="tf2_msgs" type="x" name="c"/>',
         broken='<node pkg="speaking"/>',
         arguments='<arg name="which"/><node pkg="speaking" type="$(arg which)" name="talker"/>',
     )
@@ -64,11 +62,6 @@ def test_nodes_of_other_machines_are_told_with_what_to_type_there(packages: Pack
     assert "ssh 10.9.9.9 rosrun speaking talker.py __name:=f" in line
 
 
-def test_packages_that_the_manifest_does_not_name(packages: PackageIndex) -> None:
-    (line,) = found(packages, "uses")["launch_undeclared"]
-    assert line.startswith("speaking: tf2_msgs (")
-
-
 @pytest.mark.parametrize(
     ("words", "text"),
     [
@@ -86,21 +79,3 @@ def test_a_file_that_cannot_be_read_is_a_finding(packages: PackageIndex, words: 
 def test_arguments_are_given_as_to_roslaunch(packages: PackageIndex) -> None:
     assert plan(packages, "speaking", "arguments.launch", "which:=talker.py").missing == []
     assert [each.kind for each in plan(packages, "speaking", "arguments.launch").missing] == ["arg"]
-
-
-def test_what_of_a_launch_does_not_run_as_the_file_says(packages: PackageIndex) -> None:
-    both = plan(packages, "speaking", "fine.launch")
-    talker, other = Node("/talker", "http://here:1/"), Node("/other", "http://here:2/")
-
-    def online(*nodes: Node, **parameters: object) -> dict[str, tuple[str, ...]]:
-        graph = Survey({node.name: node for node in nodes}, {}, {}, {}, parameters)
-        return {each.rule: each.where for each in online_findings(both, graph)}
-
-    assert online(talker, rate=3) == {}
-    assert online(other) == {}  # none of it was launched
-    (line,) = online(talker, rate=4)["launch_changed"]
-    assert line.startswith("/rate: 4 instead of 3 (")
-    (line,) = online(talker)["launch_changed"]
-    assert line.startswith("/rate: not set instead of 3")
-    both.nodes.append(both.nodes[0].__class__("speaking", "x", "gone", "/", both.nodes[0].place))
-    assert online(talker, rate=3) == {"launch_ended": ("/gone",)}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ipaddress
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from rosmini.core.errors import nearest
 from rosmini.core.peers import host_of
@@ -86,23 +86,6 @@ def unheard_topics(graph: Survey) -> Iterator[Finding]:
         )  # fmt: skip
 
 
-def dropped_messages(graph: Survey) -> Iterator[Finding]:
-    """Find connections whose queues have dropped messages."""
-    found = tuple(
-        str(flow)
-        for node in graph.nodes.values()
-        if not node.name.startswith(TOOLS)
-        for flow in node.flows
-        if flow.dropped and not flow.subscriber.startswith(TOOLS)
-    )
-    if found:
-        yield Finding(
-            "dropped_messages", "WARNING", "Queues were full, and dropped the oldest messages:", found,
-            "The subscriber's callback takes longer than the messages are apart. That is fine where only the newest "
-            "message counts. Otherwise make the callback faster, publish less often, or set a larger queue_size.",
-        )  # fmt: skip
-
-
 def no_clock(graph: Survey) -> Iterator[Finding]:
     """Find simulated time without a clock, a clock that no node uses, or one that several nodes set."""
     publishers = graph.publishers.get("/clock", ())
@@ -168,34 +151,15 @@ def loopback_addresses(graph: Survey) -> Iterator[Finding]:
         )  # fmt: skip
 
 
-def small_inflation(graph: Survey) -> Iterator[Finding]:
-    """Find costmaps whose inflation radius is below the robot's inscribed radius, so that paths graze walls."""
-    found = []
-    for path, settings in _dicts(graph.parameters, ""):
-        radius = settings.get("robot_radius", _inscribed(settings.get("footprint")))
-        layer = settings.get("inflation_layer")
-        inflation = (layer if isinstance(layer, dict) else settings).get("inflation_radius")
-        if isinstance(radius, float | int) and isinstance(inflation, float | int) and inflation < radius:
-            found.append(f"{path}: inflation_radius {inflation:g} m, inscribed radius {radius:.3g} m")
-    if found:
-        yield Finding(
-            "small_inflation", "WARNING", "Costmaps inflate obstacles by less than the robot's radius:", tuple(found),
-            "The planner takes paths on which the robot touches the wall, and the local planner finds no way: set "
-            "inflation_radius well above the inscribed radius.",
-        )  # fmt: skip
-
-
 RULES: tuple[Callable[[Survey], Iterator[Finding]], ...] = (
     silent_nodes,
     types_differ,
     not_connected,
     unheard_topics,
-    dropped_messages,
     no_clock,
     several_drivers,
     strangers_parameters,
     loopback_addresses,
-    small_inflation,
 )
 
 
@@ -236,30 +200,3 @@ def _is_loopback(host: str) -> bool:
         return ipaddress.ip_address(host).is_loopback
     except ValueError:
         return host == "localhost"
-
-
-def _dicts(tree: Any, path: str) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Yield every namespace of a parameter tree with its name."""
-    waiting = [(path, tree)]
-    while waiting:
-        where, value = waiting.pop(0)
-        if isinstance(value, dict):
-            yield where or "/", value
-            waiting += [(f"{where}/{key}", each) for key, each in sorted(value.items())]
-
-
-def _inscribed(footprint: object) -> float | None:
-    """Return the inscribed radius of a footprint [[x, y], ...] about the origin; None if it is invalid."""
-    try:
-        points = [(float(x), float(y)) for x, y in footprint]  # type: ignore[attr-defined]
-        return min(_to_edge(*a, *b) for a, b in zip(points, [*points[1:], *points[:1]], strict=True))
-    except (TypeError, ValueError):
-        return None
-
-
-def _to_edge(ax: float, ay: float, bx: float, by: float) -> float:
-    """Return the distance of the origin from the segment a-b."""
-    dx, dy = bx - ax, by - ay
-    squared = dx * dx + dy * dy
-    along = 0.0 if squared == 0 else min(max(-(ax * dx + ay * dy) / squared, 0.0), 1.0)
-    return float(((ax + along * dx) ** 2 + (ay + along * dy) ** 2) ** 0.5)

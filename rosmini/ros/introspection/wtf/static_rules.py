@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import os
-import shlex
-import sys
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 from rosmini.core.errors import DefinitionError
-from rosmini.core.packages import BUILT_IN, SCRIPT_FOLDERS, PackageIndex, crawl
+from rosmini.core.packages import BUILT_IN, PackageIndex, crawl
 
 from .findings import Finding
 
@@ -72,28 +70,11 @@ def unused_workspace(environ: Mapping[str, str], packages: PackageIndex) -> Iter
         )  # fmt: skip
 
 
-def scripts_that_cannot_start(environ: Mapping[str, str], packages: PackageIndex) -> Iterator[Finding]:
-    """Find scripts that rosrun would not start: not executable, no Python shebang line, or Windows line endings."""
-    found = []
-    for name in _own(environ, packages)[0]:
-        folder = packages.path(name)
-        for script in _scripts(folder):
-            problem = _problem(script)
-            if problem:
-                found.append(f"{name}/{script.relative_to(folder).as_posix()}: {problem}")
-    if found:
-        yield Finding(
-            "scripts_that_cannot_start", "ERROR", "A real rosrun or roslaunch cannot start these scripts:",
-            tuple(found),
-        )  # fmt: skip
-
-
 RULES: tuple[Callable[[Mapping[str, str], PackageIndex], Iterator[Finding]], ...] = (
     missing_folders,
     broken_manifests,
     missing_dependencies,
     unused_workspace,
-    scripts_that_cannot_start,
 )
 
 
@@ -111,35 +92,3 @@ def _own(environ: Mapping[str, str], packages: PackageIndex) -> tuple[list[str],
             else:
                 found.append(name)
     return found, problems
-
-
-def _scripts(folder: Path) -> list[Path]:
-    """Return the Python files that are scripts, judged by their folder and by first line or name."""
-    files = [each for part in SCRIPT_FOLDERS for each in sorted((folder / part).glob("*")) if each.is_file()]
-    return [each for each in files if each.name != "__init__.py" and (each.suffix == ".py" or b"python" in _head(each))]
-
-
-def _head(script: Path) -> bytes:
-    """Return the first line of a file."""
-    try:
-        with script.open("rb") as file:
-            return file.read(HEAD).partition(b"\n")[0]
-    except OSError:
-        return b""
-
-
-def _problem(script: Path) -> str:
-    head = _head(script)
-    if not head.startswith(b"#!"):
-        return "its first line is not `#!/usr/bin/env python3`" if _may_run(script) else ""  # else a module
-    if head.endswith(b"\r"):
-        return "its lines end as on Windows, so that the system looks for a program `python3\\r`: dos2unix"
-    if b"python" not in head:
-        return f"its first line starts {head[2:60].decode('utf-8', 'replace').strip()}, not python3"
-    if not _may_run(script):
-        return f"it has no run bit: chmod +x {shlex.quote(str(script))}"
-    return ""
-
-
-def _may_run(script: Path) -> bool:
-    return sys.platform == "win32" or os.access(script, os.X_OK)

@@ -6,7 +6,6 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import ROSException, TransportException
-from rosmini.ros.introspection.drops import Flow, flows
 from rosmini.ros.introspection.nodes import succeed, why_silent
 
 if TYPE_CHECKING:
@@ -29,8 +28,6 @@ class Node:
     subscribed: Mapping[str, str] = field(default_factory=dict)
     sources: frozenset[tuple[str, str]] = frozenset()
     """(topic, address or name of the publisher) of each open inbound connection."""
-    flows: tuple[Flow, ...] = ()
-    """Its connections, with their numbers of dropped messages."""
     silence: str = ""
 
 
@@ -71,9 +68,8 @@ def survey(peers: Peers) -> Survey:
     names = sorted({name for part in (published, subscribed, services) for held in part.values() for name in held})
     parameters = master.find("getParam", "/")
     uris = {name: master.find("lookupNode", name) for name in names}
-    by_uri = {uri: name for name, uri in uris.items() if uri is not None}
     return Survey(
-        {name: _node(peers, name, uri, by_uri) for name, uri in uris.items()},
+        {name: _node(peers, name, uri) for name, uri in uris.items()},
         published,
         subscribed,
         services,
@@ -81,7 +77,7 @@ def survey(peers: Peers) -> Survey:
     )
 
 
-def _node(peers: Peers, name: str, uri: str | None, names: Mapping[str, str]) -> Node:
+def _node(peers: Peers, name: str, uri: str | None) -> Node:
     if uri is None:
         return Node(name, "", silence=f"the Master lists [{name}] and has no address of it")
     try:
@@ -89,14 +85,7 @@ def _node(peers: Peers, name: str, uri: str | None, names: Mapping[str, str]) ->
             succeed(peers.transport.call(uri, method, ID))
             for method in ("getPublications", "getSubscriptions", "getBusInfo")
         )
-        return Node(
-            name,
-            uri,
-            dict(published),
-            dict(subscribed),
-            frozenset(map(_source, filter(_is_source, links))),
-            flows(peers, ID, name, uri, names),
-        )
+        return Node(name, uri, dict(published), dict(subscribed), frozenset(map(_source, filter(_is_source, links))))
     except TransportException as error:
         return Node(name, uri, silence=why_silent(error, name, uri))
     except (ROSException, ValueError, TypeError, IndexError) as error:

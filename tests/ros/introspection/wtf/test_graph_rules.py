@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any
 
 import pytest
 
-from rosmini.ros.introspection.drops import Flow
 from rosmini.ros.introspection.wtf import graph_rules
 from rosmini.ros.introspection.wtf.graph_rules import RULES
 from rosmini.ros.introspection.wtf.survey import Node, Survey
@@ -51,17 +49,6 @@ def test_nodes_that_do_not_answer_are_listed_and_not_held_against_others() -> No
     graph = Survey({"/dead": dead, "/listener": node("/listener", {}, {"/x": TEXT})}, {"/x": ("/dead",)},
                    {"/x": ("/listener",)}, {}, {})  # fmt: skip
     assert found(graph) == {"silent_nodes": ("/dead: connection refused to [http://here:9/]",)}
-
-
-def test_dropped_messages_are_counted_and_those_of_tools_left_out() -> None:
-    flows = (
-        Flow("/chatter", "/talker", "/listener", "subscriber", 7),
-        Flow("/x", "/talker", "/listener", "subscriber", 0),
-    )
-    listener = replace(LISTENER, flows=flows)
-    tool = replace(LISTENER, name="/rqt_plot_1", flows=(Flow("/chatter", "/talker", "/rqt_plot_1", "subscriber", 9),))
-    (where,) = found(survey(TALKER, listener, tool))["dropped_messages"]
-    assert all(part in where for part in ("/talker", "/listener", "/chatter", " 7 "))
 
 
 def test_types_that_differ_are_named_with_their_nodes() -> None:
@@ -134,27 +121,6 @@ def test_an_address_of_this_machine_only_in_a_graph_of_several() -> None:
     far = node("/far", {}, {}, host="10.0.0.3")
     assert found(survey(node("/near", {}, {}, host="127.0.0.1"), far)) == {"loopback_addresses": ("/near (127.0.0.1)",)}
     assert found(survey(node("/near", {}, {}, host="localhost"))) == {}
-
-
-@pytest.mark.parametrize(
-    ("costmap", "text"),
-    [
-        ({"robot_radius": 0.18, "inflation_radius": 0.1}, "inflation_radius 0.1 m, inscribed radius 0.18 m"),
-        (
-            {"footprint": [[-0.205, -0.155], [-0.205, 0.155], [0.077, 0.155], [0.077, -0.155]],
-             "inflation_layer": {"inflation_radius": 0.05}},
-            "inflation_radius 0.05 m, inscribed radius 0.077 m",
-        ),
-        ({"robot_radius": 0.18, "inflation_radius": 0.55}, None),
-        ({"robot_radius": "wide", "inflation_radius": 0.55}, None),
-        ({"footprint": "[[0, 0]", "inflation_radius": 0.55}, None),
-        ({"footprint": [], "inflation_radius": 0.55}, None),
-    ],
-)  # fmt: skip
-def test_a_costmap_that_inflates_too_little(costmap: dict[str, Any], text: str | None) -> None:
-    graph = survey(node("/move_base", {}, {}), parameters={"move_base": {"global_costmap": costmap}})
-    where = (f"/move_base/global_costmap: {text}",)
-    assert found(graph) == ({"small_inflation": where} if text else {})
 
 
 def test_every_rule_of_the_module_is_asked() -> None:

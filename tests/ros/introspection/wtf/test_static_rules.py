@@ -56,20 +56,3 @@ def test_a_manifest_that_cannot_be_read(package: Path, text: str) -> None:
     where = found(package.parent)["broken_manifests"]
     assert len(where) == 1
     assert "package.xml" in where[0]
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="there are no run bits on Windows")
-@pytest.mark.parametrize(
-    ("content", "mode", "problem"),
-    [
-        (b"#!/usr/bin/env python3\n", 0o644, "it has no run bit: chmod +x "),
-        (b"#!/usr/bin/env python3\r\nimport rospy\r\n", 0o755, "its lines end as on Windows"),
-        (b"import rospy\n", 0o755, "its first line is not `#!/usr/bin/env python3`"),
-        (b"#!/bin/sh\nimport rospy\n", 0o755, "its first line starts /bin/sh, not python3"),
-    ],
-)
-def test_a_script_that_cannot_start(package: Path, content: bytes, mode: int, problem: str) -> None:
-    script(package, content, mode)
-    where = found(package.parent)["scripts_that_cannot_start"]
-    assert len(where) == 1
-    assert where[0].startswith(f"mine/scripts/run.py: {problem}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rosmini.ros.rospy.client import myargv
 
-from . import masterapi, names, rosenv, roslogging
+from . import masterapi, names, rosenv
 from .masterapi import Master, MasterError, MasterException, MasterFailure
 from .masterapi import is_online as is_master_online
 from .rosenv import ROS_HOSTNAME, ROS_IP, ROS_IPV6, ROS_MASTER_URI, ROS_NAMESPACE, get_master_uri
@@ -25,5 +25,4 @@ __all__ = [
     "myargv",
     "names",
     "rosenv",
-    "roslogging",
 ]
