@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from types import UnionType
 
-    from rosmini.core.graph import Graph, Publisher
     from rosmini.msgs.message import Message
 
 
@@ -260,18 +259,6 @@ def expect_fields(found: type[Message], wanted: type[Message], what: str) -> Non
     extra = [name for _, name in given if name not in [field for _, field in right]]
     expect(not extra, f"The {what} has a field that the task does not mention: {', '.join(extra)}.")
     expect(given == right, f"The fields of the {what} are in the wrong order.")
-
-
-def expect_node(graph: Graph, name: str) -> None:
-    """Expect a node with this full name in a graph."""
-    expect(name in graph.nodes, f"There is no node {name}.", f'use graph.node("{name.rpartition("/")[2]}")')
-
-
-def expect_heard(publisher: Publisher) -> None:
-    """Expect a subscriber of the topic of `publisher`."""
-    kind = publisher.message_class._type.rpartition("/")[2]
-    topic = publisher.topic
-    expect(publisher.num_connections(), f"No node subscribes to {topic}.", f"call subscriber(...) with type {kind}")
 
 
 def check(name: str, *answer: Any) -> Verdict:

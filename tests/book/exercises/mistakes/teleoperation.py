@@ -95,7 +95,7 @@ MISTAKES = {
         wrong("guard_back.py", GUARD_BACK, "    if ahead < 0.3:", "    if ahead < 0.0:"),
         wrong("guard_back.py", GUARD_BACK, "min(command.linear.x, 0.0)", "0.0"),
         wrong("guard_back.py", GUARD_BACK, "max(command.linear.x, 0.0)", "0.0"),
-        wrong("guard_back.py", GUARD_BACK, "behind = min(", "behind = max("),
+        wrong("guard_back.py", GUARD_BACK, "ranges[150:211]", "ranges[0:1]"),
         wrong("guard_back.py", GUARD_BACK, "ahead < 0.3", "ahead < 0.9"),
         wrong(
             "guard_back.py",
