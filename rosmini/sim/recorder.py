@@ -434,8 +434,8 @@ def aligned(scan: Any, lidar: LidarModel) -> Floats:
     Beam i of a laser with a full circle is at 2 pi i / beams from ahead.
 
     A beam without a hit gives inf, and one that is too near to be measured -inf (REP 117). Values outside the scan's
-    range_min and range_max are not hits, according to the message definition; nor are nan, and the 0 that an LDS-01
-    gives for a beam that did not return.
+    range_min and range_max are not hits, according to the message definition; nor are nan and the 0 that an LDS-01
+    reports for a beam that did not return.
 
     Raises:
         RecordingError: the number or the angles of its beams differ from the laser's.

@@ -153,7 +153,7 @@ class Simulation(ABC):
         drag(self.engine, entity, pose)
 
     def place(self, pose: Pose, robot: str = "") -> None:
-        """Put a robot elsewhere, the first if none is named, like `drag`; of its sensors only the IMU notices."""
+        """Put a robot elsewhere, the first if none is named, as `drag` does; its IMU notices, its encoders do not."""
         self._do(lambda: self._drag(robot, pose))
 
     def delete(self, name: str) -> None:

@@ -184,6 +184,7 @@ class World:
     walls: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 4)))
     """Thin walls (n, 4), each a segment x1, y1, x2, y2 [m], for example traced from a map."""
     wall_height: float = 0.5
+    """Height of the walls [m]; a laser above it does not see them."""
     starts: tuple[Pose, ...] = ((0.0, 0.0, 0.0),)
     """Default starts of robots, in this order."""
     title: str = ""

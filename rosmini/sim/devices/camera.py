@@ -1,4 +1,4 @@
-"""A robot's camera: images, depths and points, rendered only while a node listens."""
+"""A robot's camera: images, depths and points, rendered only while a topic has a subscriber."""
 
 from __future__ import annotations
 

@@ -38,10 +38,7 @@ WHEELS = ("wheel_left_joint", "wheel_right_joint")
 """Names of TurtleBot3's wheel joints."""
 
 SOURCES = ("encoder", "world", "start")
-"""Sources of a drive's odometry: the wheel encoders, the true pose in the world's frame, or the true pose
-
-relative to where the robot started.
-"""
+"""Sources of a drive's odometry: the wheel encoders, or the true pose in the world's frame or relative to the start."""
 
 
 class OdometryReading(NamedTuple):
@@ -268,7 +265,7 @@ class PlanarMove(DifferentialDrive):
 
 
 class OdometryTransforms(Device):
-    """The transforms of all drives of one rate on one topic, in one message. Made by `publish_transform`."""
+    """The transforms of all drives with the same rate and topic, in one message; created by `publish_transform`."""
 
     order = 20.0
 

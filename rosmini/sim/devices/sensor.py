@@ -18,8 +18,8 @@ STAMP = ("header.stamp.secs", "header.stamp.nsecs")
 class Outlet:
     """A topic of a device.
 
-    All messages equal `message` as it was at first, except for the stamp and the fields `varying`. A message without
-    header has no stamp.
+    Each message is a copy of `message`, as it was on creation, with other values of the fields `varying` and, if it has
+    a header, another stamp.
     """
 
     def __init__(

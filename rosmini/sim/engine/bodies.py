@@ -152,6 +152,7 @@ class Body:
 
     name: str
     kind: float
+    """`ROBOT`, `CRATE` or `KINEMATIC`."""
     owner: Placed
     """The object that knows its pose."""
     pieces: list[Piece]

@@ -88,7 +88,7 @@ class Contacts:
         self._cells.put(crate.obstacle.name, (x - r, y - r, x + r, y + r))
 
     def remove(self, name: str) -> None:
-        """Remove a body or a fixed obstacle."""
+        """Remove a body or a fixed obstacle; an unknown name has no effect."""
         self.bodies.pop(name, None)
         self._self_propelled.pop(name, None)
         self.loose.pop(name, None)
@@ -122,7 +122,7 @@ class Contacts:
         return (body,) if math.hypot(px - x, py - y) <= reach + body.reach else ()
 
     def neighbours(self, bodies: Iterable[Body], reach: float) -> list[Body]:
-        """Return the bodies whose bounding circles are within `reach` [m] of that of any of the given bodies."""
+        """Return the bodies within `reach` [m] of any of the given ones, by bounding circles, and these themselves."""
         places = [(*body.owner.pose[:2], body.reach) for body in bodies]
         found: dict[Body, None] = {}
         if self._cells:
@@ -146,7 +146,7 @@ class Contacts:
     # -- overlaps ------------------------------------------------------------------------------------------------
 
     def obstruction(self, model: RobotModel, pose: Pose, ignoring: str = "") -> str | None:
-        """Describe a body that a robot of this model would overlap at `pose`; None if there is room."""
+        """Describe a body, other than `ignoring`, that a robot would overlap at `pose`; None if there is room."""
         pieces = [Piece(np.array(model.footprint, dtype=float), 0.0)]
         return next(self._in_the_way(pieces, pose, ignoring, 0.0, model.height, model.reach), None)
 

@@ -227,16 +227,16 @@ class Engine:
         if name not in self.robots:
             self._put_obstacle(self.obstacle(name), pose, velocity)
         else:
-            lifted = self.robots[name]
-            where = self._free_pose(lifted.model, pose, name)
+            robot = self.robots[name]
+            where = self._free_pose(robot.model, pose, name)
             vx, vy, w = velocity
             c, s = math.cos(pose[2]), math.sin(pose[2])
-            lifted.launch(where, (c * vx + s * vy, c * vy - s * vx, w))
+            robot.launch(where, (c * vx + s * vy, c * vy - s * vx, w))
             self.trails.forget(name)
-            self._population.record_leg(lifted)
+            self._population.record_leg(robot)
             if name in self.contacts.loose:
                 self._put_loose(name, where, velocity)
-            self._invalidate_near(where, lifted.model.reach)
+            self._invalidate_near(where, robot.model.reach)
 
     def _put_loose(self, name: str, pose: Pose, velocity: Velocity = AT_REST) -> None:
         crate = self.contacts.loose[name]
@@ -282,14 +282,14 @@ class Engine:
         Raises `RosminiError` for a number that is not finite, and for any but a zero command to a robot without a
         drive.
         """
-        told = self.robot(name)
+        robot = self.robot(name)
         if not math.isfinite(v + w + vy):
             aside = f", {vy} m/s to its side" if vy else ""
             msg = f"the robot {name!r} cannot go {v} m/s{aside} and {w} rad/s: both must be finite"
             raise RosminiError(msg)
-        told.command(v, vy, w)
-        told.expires_ns = self._population.instant.ns + to_ns(timeout) if timeout else math.inf
-        self._stepper.commanded(told)
+        robot.command(v, vy, w)
+        robot.expires_ns = self._population.instant.ns + to_ns(timeout) if timeout else math.inf
+        self._stepper.commanded(robot)
 
     def _free_pose(self, model: RobotModel, pose: Pose, name: str = "") -> Pose:
         """Return `pose` as floats if the robot `name` has room there.
@@ -459,9 +459,9 @@ class Engine:
         """
         if state.world is not self.world:
             self._load_world(state.world)
-        everything, contacts = self._population, self.contacts
+        population, contacts = self._population, self.contacts
         contacts.clear()
-        everything.instant.ns, everything.instant.seconds = state.now_ns, state.now
+        population.instant.ns, population.instant.seconds = state.now_ns, state.now
         self.noise, self._stepper.slips_ns = state.noise, state.slips_ns
         contacts.surface, contacts.forces = state.surface, state.forces
         self.movers.clear()
@@ -483,8 +483,8 @@ class Engine:
         for name, thing in state.things.items():
             contacts.loose[name].restore(thing)
             contacts.update_cells(contacts.loose[name])
-        everything.trails.restore(state.trails)
-        everything.changed += 1
+        population.trails.restore(state.trails)
+        population.changed += 1
         self._stepper.discard_clearances()
 
     # -- sensing -------------------------------------------------------------------------------------------------

@@ -219,7 +219,7 @@ def resolve_overlaps(queue: Ints, scene: Scene, moved: Ints) -> None:
 
 # -- contact impulses ------------------------------------------------------------------------------------------------
 
-FIRST, SECOND, NX, NY, PX, PY, DEPTH, SPEED, BOUNCE, ALONG, ACROSS, PUSH_IMPULSE, RUB_IMPULSE = range(13)
+FIRST, SECOND, NX, NY, PX, PY, DEPTH, SPEED, BOUNCE, ALONG, ACROSS, PUSH_IMPULSE, FRICTION_IMPULSE = range(13)
 """Columns of a contact: the bodies, the normal, the point, the depth, the opening speed, its target, the effective
 masses along and across the normal, and the impulses.
 """
@@ -316,7 +316,7 @@ def prepare_contacts(scene: Scene, motion: Floats, hits: Floats, arms: Floats, c
         hit[ACROSS] = 1.0 / (inverse_mass(i, ax, ay, -ny, nx, bodies) + inverse_mass(j, bx, by, -ny, nx, bodies))
         hit[SPEED] = speed_at(j, bx, by, nx, ny, motion) - speed_at(i, ax, ay, nx, ny, motion)
         hit[BOUNCE] = -min(hit[SPEED], 0.0) * restitution(i, bodies) * restitution(j, bodies)
-        hit[PUSH_IMPULSE] = hit[RUB_IMPULSE] = 0.0
+        hit[PUSH_IMPULSE] = hit[FRICTION_IMPULSE] = 0.0
 
 
 def solve_contact(n: int, friction: float, scene: Scene, motion: Floats, hits: Floats, arms: Floats) -> bool:
@@ -324,17 +324,17 @@ def solve_contact(n: int, friction: float, scene: Scene, motion: Floats, hits: F
     bodies, hit = scene[1], hits[n]
     i, j, nx, ny = int(hit[FIRST]), int(hit[SECOND]), hit[NX], hit[NY]
     ax, ay, bx, by = arms[n, 0], arms[n, 1], arms[n, 2], arms[n, 3]
-    opens = speed_at(j, bx, by, nx, ny, motion) - speed_at(i, ax, ay, nx, ny, motion)
-    push = max(0.0, hit[PUSH_IMPULSE] + (hit[BOUNCE] - opens) * hit[ALONG])
-    more = push - hit[PUSH_IMPULSE]
-    slides = speed_at(j, bx, by, -ny, nx, motion) - speed_at(i, ax, ay, -ny, nx, motion)
+    opening = speed_at(j, bx, by, nx, ny, motion) - speed_at(i, ax, ay, nx, ny, motion)
+    push = max(0.0, hit[PUSH_IMPULSE] + (hit[BOUNCE] - opening) * hit[ALONG])
+    along = push - hit[PUSH_IMPULSE]
+    sliding = speed_at(j, bx, by, -ny, nx, motion) - speed_at(i, ax, ay, -ny, nx, motion)
     most = friction * push
-    rub = min(most, max(-most, hit[RUB_IMPULSE] - slides * hit[ACROSS]))
-    aside = rub - hit[RUB_IMPULSE]
-    if more == 0.0 and aside == 0.0:
+    drag = min(most, max(-most, hit[FRICTION_IMPULSE] - sliding * hit[ACROSS]))
+    across = drag - hit[FRICTION_IMPULSE]
+    if along == 0.0 and across == 0.0:
         return False
-    hit[PUSH_IMPULSE], hit[RUB_IMPULSE] = push, rub
-    px, py = more * nx - aside * ny, more * ny + aside * nx
+    hit[PUSH_IMPULSE], hit[FRICTION_IMPULSE] = push, drag
+    px, py = along * nx - across * ny, along * ny + across * nx
     apply_impulse(i, ax, ay, -px, -py, bodies, motion)
     apply_impulse(j, bx, by, px, py, bodies, motion)
     return True

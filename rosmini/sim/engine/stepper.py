@@ -340,13 +340,13 @@ class Stepper:
         return c * x - s * y, s * x + c * y
 
     def _move_crate(self, crate: Crate, end_ns: int, end: Pose, velocity: tuple[float, float, float]) -> None:
-        everything, now, name = self._population, self._instant.ns, crate.obstacle.name
+        population, now, name = self._population, self._instant.ns, crate.obstacle.name
         if self._remembers:
-            everything.trails.add_pose(name, now / SECOND, crate.pose)
-            everything.trails.add_pose(name, end_ns / SECOND, end)
+            population.trails.add_pose(name, now / SECOND, crate.pose)
+            population.trails.add_pose(name, end_ns / SECOND, end)
         crate.carry(now, end_ns, end, velocity)
-        everything.contacts.update_cells(crate)
-        thing = everything.robots.get(name)
+        population.contacts.update_cells(crate)
+        thing = population.robots.get(name)
         if isinstance(thing, PassiveRobot):
             thing.follow(end, velocity, end_ns)
 

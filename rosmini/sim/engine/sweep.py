@@ -142,20 +142,20 @@ class Sweeps:
 
     def _update_tracks(self, duration: float) -> None:
         """Compute the tracks of all bodies during the last `duration` seconds."""
-        everything = self._population
-        moment = (everything.now, everything.changed, duration)
+        population = self._population
+        moment = (population.now, population.changed, duration)
         if moment == self._moment:
             return
         self._moment = moment
         self._cuts: dict[float, tuple[Ints, Floats, Floats]] = {}
-        grid = [everything.now - duration * part for part in PARTS]
+        grid = [population.now - duration * part for part in PARTS]
         self._numbers: dict[str, int] = {}
         starts = [0]
         times: list[float] = []
         poses: list[Pose] = []
         around: list[tuple[float, float, float]] = []
         for name, pose, reach, pose_on_leg in self._moving_bodies():
-            track = everything.trails.track(name, grid, pose, pose_on_leg)
+            track = population.trails.track(name, grid, pose, pose_on_leg)
             if track is not None:
                 self._numbers[name] = len(self._numbers)
                 times += track[0]
@@ -165,20 +165,20 @@ class Sweeps:
         self._starts, self._times = np.array(starts), np.array(times)
         self._poses, self._around = np.array(poses).reshape(-1, 3), np.array(around).reshape(-1, 3)
         moving = self._numbers
-        self._stationary_robots = [each for each in everything.robots.values() if each.name not in moving]
+        self._stationary_robots = [each for each in population.robots.values() if each.name not in moving]
         self._crates: list[Crate] = [
-            each for each in everything.contacts.crates if each.shown and each.obstacle.name not in moving
+            each for each in population.contacts.crates if each.shown and each.obstacle.name not in moving
         ]
-        self._movers: list[Mover] = [each for each in everything.movers.values() if each.obstacle.name not in moving]
+        self._movers: list[Mover] = [each for each in population.movers.values() if each.obstacle.name not in moving]
 
     def _moving_bodies(self) -> Iterator[tuple[str, Pose, float, PoseOnLeg | None]]:
         """Yield each body that may move: its name, pose, reach [m], and a function for its former poses."""
-        everything = self._population
-        for robot in everything.robots.values():
+        population = self._population
+        for robot in population.robots.values():
             yield robot.name, robot.pose, robot.model.extent, robot.pose_on_leg
-        for mover in everything.movers.values():
+        for mover in population.movers.values():
             yield mover.obstacle.name, mover.pose, mover.reach, mover.pose_on_leg
-        for crate in everything.contacts.crates:
+        for crate in population.contacts.crates:
             if crate.shown:
                 yield crate.obstacle.name, crate.pose, crate.reach, None
 
@@ -203,10 +203,10 @@ class Sweeps:
         return self._cuts[height]
 
     def _outline(self, name: str, height: float) -> CrossSection:
-        everything = self._population
-        if name in everything.robots:
-            return everything.laser_view.template(everything.robots[name].model, height)
-        owner = everything.movers[name] if name in everything.movers else everything.contacts.loose[name]
+        population = self._population
+        if name in population.robots:
+            return population.laser_view.template(population.robots[name].model, height)
+        owner = population.movers[name] if name in population.movers else population.contacts.loose[name]
         return obstacle_section(owner.obstacle, height, (0.0, 0.0, 0.0))
 
 

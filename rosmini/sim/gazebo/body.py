@@ -40,9 +40,11 @@ class Body:
     model: SdfModel
     drive: Drive | None = None
     wheel_separation: float = 0.16
+    """Distance between the wheels [m]; their radius is in m, the acceleration of their rims in m/s2."""
     wheel_radius: float = 0.033
     wheel_acceleration: float = math.inf
     rate: float = 30.0
+    """Rate at which the drive publishes [Hz]."""
     axle: Pose = (0.0, 0.0, 0.0)
     wheels: tuple[str, str] | None = None
     """The joints of the left and the right wheel."""

@@ -158,7 +158,7 @@ class Model:
 
     @property
     def static(self) -> bool:
-        """True if it never moves by itself."""
+        """True if it is static: contacts and forces do not move it."""
         return self.sdf.static
 
     @property
@@ -211,9 +211,10 @@ class Model:
         self.world.move(self, pose, velocity)
 
     def set_velocity(self, velocity: Velocity) -> None:
-        """Give it a velocity in the world's frame, as if it were pushed. If something is in its way, it keeps its own.
+        """Give it a velocity in the world's frame, as if it were pushed.
 
-        The wheels of a driven robot counteract it. Raises `GazeboError` for values that are not finite.
+        The part of the velocity towards a wall or a fixed obstacle that it touches has no effect, and the wheels of a
+        driven robot counteract the rest. Raises `GazeboError` for values that are not finite.
         """
         self.world.host.catch_up()
         vx, vy, w = velocity
@@ -310,7 +311,7 @@ class Sensor:
 
     @property
     def element(self) -> Element:
-        """Its tag."""
+        """Its `<sensor>` element."""
         return self.sdf.element
 
     @property

@@ -1,7 +1,7 @@
 """Plugins: code of a world, a model or a sensor, found by the file name in its `<plugin>` tag.
 
 In Gazebo a plugin is a shared library that the server loads; here it is a class that names the library it replaces.
-To write one, derive from `WorldPlugin`, `ModelPlugin` or `SensorPlugin` and override `load`. Files can use it once
+To write one, derive from `WorldPlugin`, `ModelPlugin` or `SensorPlugin` and override `load`. Files can use it once the
 class exists:
 
 >>> class Shout(ModelPlugin, filename="libshout.so"):

@@ -1,4 +1,4 @@
-"""Doors: models with a plugin of rosmini that opens them. In real Gazebo, which lacks it, they swing freely.
+"""Doors: models with a plugin of rosmini that opens them. Real Gazebo lacks the plugin; there the doors swing freely.
 
     <model name="door">
       <link name="leaf">...</link>

@@ -15,7 +15,7 @@ Sources of the numbers:
   speed without a load are our estimate; the rest is for the computers. So the published time applies to a robot that
   always drives; one at rest runs longer.
 - The curve is the usual one of a lithium polymer cell, 4.2 V full, flat around 3.8 V, steep at the end; a cell is cut
-  off at 3.0 V. It is a typical cell's, not this model's, and so is the resistance.
+  off at 3.0 V. The curve and the resistance are those of a typical cell, not of this model.
 """
 
 from __future__ import annotations

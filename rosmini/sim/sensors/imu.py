@@ -16,9 +16,9 @@ TurtleBot3's board runs, has no other information about the heading of a robot o
 with the scale error s, the bias b, and the deviation sigma of one of f samples a second. That board calibrates the
 gyroscope when a connection is made, and on the topic `reset`: it takes the mean of 512 samples as its zero, rounded
 down to whole steps of the converter. The remaining b is between zero and one step, 0.061 degrees a second: so the
-heading of a TurtleBot3 at rest drifts to the left (https://github.com/ROBOTIS-GIT/turtlebot3/issues/819). Published
-are sigma, the step and the largest s; we assume that s is normal, with a third of the largest as deviation.
-Temperature, which changes b, the chip's low-pass filter, and tilts are left out.
+heading of a TurtleBot3 at rest drifts to the left (https://github.com/ROBOTIS-GIT/turtlebot3/issues/819). The
+values of sigma, of the step and of the largest s are published; we assume that s is normal, with a third of the
+largest as deviation. Temperature, which changes b, the chip's low-pass filter, and tilts are left out.
 """
 
 from __future__ import annotations

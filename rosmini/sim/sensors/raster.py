@@ -4,8 +4,8 @@ A pixel (u, v) looks along r = ((u - cx) / fx, (v - cy) / fy, 1) in the frame of
 corners P_i covers it if r is on the inner side of each plane through the camera and two neighbouring corners, that is
 if (P_i x P_i+1) . r has the same sign for all i; and the inverse of the depth at which r meets the face's plane n . P =
 d is n . r / d. Both are linear in u and v, so no corner has to be in front of the camera and nothing is clipped (Olano
-and Greer, "Triangle scan conversion using 2D homogeneous coordinates", 1997). The nearest face wins; of two that are
-near, the first.
+and Greer, "Triangle scan conversion using 2D homogeneous coordinates", 1997). The nearest face wins; of two at the
+same depth, the one drawn first.
 
 Cylinders and balls meet r at the solution of a quadratic equation.
 """

@@ -25,7 +25,7 @@ Drive = Literal["diff", "omni", "car"]
 QUARTER = math.pi / 2
 
 BASE = ("wheelbase", "velocity", "acceleration_bounds", "odom")
-"""Properties without an effect: robots reach the velocity of a command at once, and stand at first."""
+"""Properties without an effect: robots reach the velocity of a command at once, and are at rest initially."""
 SENSOR_SIZE = (0.02, 0.02, 0.02)
 
 

@@ -17,7 +17,7 @@ from .things import Pose4, Thing
 
 
 def filled(thing: Thing) -> tuple[tuple[Block, ...], int]:
-    """Return the blocks of a model's body without hollow parts, and their number. Raises `StageError`."""
+    """Return a body's outer blocks, whose hollow parts are filled, and the number of these. Raises `StageError`."""
     if thing.body is None or not thing.body.traced:
         return (() if thing.body is None else thing.body.blocks), 0
     if len(thing.body.blocks) > MAX_OUTLINES:

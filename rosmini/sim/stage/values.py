@@ -74,7 +74,7 @@ class Reader:
         return found.place if found else self.entity.place
 
     def text(self, name: str, default: str, choices: Sequence[str] = ()) -> str:
-        """Return a string, one of the `choices` if there are any."""
+        """Return a string; `default` if there is no such property, or if it is not one of the `choices`."""
         found = self.find(name)
         if found is None:
             return default

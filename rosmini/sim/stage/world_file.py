@@ -203,7 +203,7 @@ class _World:
         return False
 
     def _filled(self, thing: Thing) -> tuple[Block, ...]:
-        """Return the blocks of a model's body without hollow parts; add a note if there are any."""
+        """Return the outer blocks of a model's body; add a note if they had hollow parts, which are filled."""
         found, holes = filled(thing)
         if holes:
             what = f"of the bitmaps of a world one may have rooms in it; {holes} hollow parts of {{}} are filled"

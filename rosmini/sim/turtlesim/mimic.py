@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Mimic:
-    """The node `turtle_mimic`."""
+    """The node `turtle_mimic`: publishes the velocities in one turtle's poses as commands for another."""
 
     node_name = "turtle_mimic"
 

@@ -154,7 +154,7 @@ class Turtle:
     def move(self, now_s: float, paper: Paper) -> tuple[float, float] | None:
         """Execute the requests and advance by `STEP_S`; `draw` draws the line of this motion.
 
-        Returns the position without a wall, x and y (down) [m], or None if it did not hit one.
+        Returns the position outside the window that it would have reached, x and y (down) [m], or None.
         """
         if self._command is not None:
             self.forward, self.sideways, self.angular_velocity = self._command

@@ -2,7 +2,7 @@
 
 `sdf` works on files. The others act on a running server through the ROS services of /gazebo: in a terminal that of the
 Master at ROS_MASTER_URI, in Python that of a graph. `topic`, and `world` with the options for which gazebo_ros has no
-service, act on the server itself, which must run in the same process. In a terminal it is named after a `+`, as in
+service, act on the server itself, which must run in the same process. In a terminal name the server after a `+`, as in
 `rosmini gz topic -l + gazebo_ros/gzserver worlds/empty.world`. In Python:
 
     gz = Gz(graph)
