@@ -144,6 +144,6 @@ def stuck(answer: Script) -> Any:
         expect(
             heard and heard[-1].data,
             f"The robot pushed against the wall at x = {x:.2f} m for some seconds, and your node did not notice.",
-            "at the wall the range is -inf; use max(scan.ranges[0], scan.range_min)",
+            "store a new place only if the range has changed; for -inf, use scan.range_min",
         )
         return trial.view()

@@ -70,7 +70,7 @@ def joystick(answer: Script) -> Any:
                 expect(
                     _same(got, [expected]),
                     f"For axes {list(axes)} and the button {'held' if held else 'not held'} it published "
-                    f"{_said(got)}, not {_said([expected])}.",
+                    f"{_said(got)}; it should publish {_said([expected])}.",
                     "axes[1] times 0.22 is linear.x, axes[0] times 2.84 is angular.z; zero if buttons[4] is not 1",
                 )
         return trial.view()
@@ -101,7 +101,7 @@ def lock(answer: Script) -> Any:
             got = _answers(trial, sent, publisher, _twist(*given) if isinstance(given, tuple) else given)
             expect(
                 _same(got, expected),
-                f"{what} it published {_said(got)}, not {_said(expected)}.",
+                f"{what} it published {_said(got)}; it should publish {_said(expected)}.",
                 "store the last message on /stop, and check it for each command",
             )
         return trial.view()
