@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Graph
     from rosmini.core.packages import PackageIndex
     from rosmini.ros.launch.plan import NodePlan, Plan
-    from rosmini.ros.launch.processes import ProcessHandle
+    from rosmini.ros.launch.processes import Guard, ProcessHandle
     from rosmini.ros.launch.running import Running
     from rosmini.ros.net.addresses import Addresses
 
@@ -76,6 +76,7 @@ class Log:
 
 def launch(plan: Plan, given: Values, packages: PackageIndex) -> int:
     """Run a plan until its nodes have ended, or Ctrl-C; the exit status is 0, as in roslaunch."""
+    from rosmini.ros.launch.processes import Guard
     from rosmini.ros.net.addresses import addresses
 
     end_as_ctrl_c()
@@ -87,10 +88,12 @@ def launch(plan: Plan, given: Values, packages: PackageIndex) -> int:
         wait_for_master(where)
     run_id = asked(where, "getParam", "/run_id")
     log = Log(str(run_id or uuid.uuid1()))
+    guard = Guard()
     try:
         with seldom():
-            return run(plan, given, packages, where, log)
+            return run(plan, given, packages, where, log, guard)
     finally:
+        guard.close()
         log.close()
 
 
@@ -113,7 +116,7 @@ def wait_for_master(where: Addresses) -> None:
     print("master has started, initiating launch", flush=True)
 
 
-def run(plan: Plan, given: Values, packages: PackageIndex, where: Addresses, log: Log) -> int:
+def run(plan: Plan, given: Values, packages: PackageIndex, where: Addresses, log: Log, guard: Guard) -> int:
     """Start everything, wait, and shut it down."""
     log.say(f"... logging to {log.path}\nPress Ctrl-C to interrupt")
     for line in where.notes:
@@ -121,19 +124,19 @@ def run(plan: Plan, given: Values, packages: PackageIndex, where: Addresses, log
     log.say(f"\n{plan.summary({'/rosdistro': 'noetic', '/rosversion': '1.16.0'})}\n")
     master = None
     if asked(where, "getPid") is None:
-        master = start_master(where, log)
+        master = start_master(where, log, guard)
     else:
         log.say(f"ROS_MASTER_URI={where.master_uri}\n")
     try:
-        run_nodes(plan, given, packages, log, first=2 if master is not None else 1)
+        run_nodes(plan, given, packages, log, guard, first=2 if master is not None else 1)
     finally:
         if master is not None:
-            end_master(master, log)
+            end_master(master, log, guard)
     log.say("shutting down processing monitor...\n... shutting down processing monitor complete\ndone")
     return 0
 
 
-def start_master(where: Addresses, log: Log) -> subprocess.Popen[bytes]:
+def start_master(where: Addresses, log: Log, guard: Guard) -> subprocess.Popen[bytes]:
     """Start a Master and wait until it answers. Raises ``MasterUnreachable`` if its address is not this machine's."""
     from rosmini.ros.net.addresses import is_loopback
 
@@ -149,6 +152,7 @@ def start_master(where: Addresses, log: Log) -> subprocess.Popen[bytes]:
             [sys.executable, "-m", "rosmini", "roscore", "-p", str(port)],
             stdout=output, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, start_new_session=True,
         )  # fmt: skip
+    guard.started(process.pid)
     log.say(f"process[master]: started with pid [{process.pid}]")
     deadline = time.monotonic() + MASTER_S
     while asked(where, "getPid") is None:
@@ -162,7 +166,7 @@ def start_master(where: Addresses, log: Log) -> subprocess.Popen[bytes]:
     return process
 
 
-def end_master(process: subprocess.Popen[bytes], log: Log) -> None:
+def end_master(process: subprocess.Popen[bytes], log: Log, guard: Guard) -> None:
     """Shut down the Master that was started here."""
     log.say("[rosout-1] killing on exit\n[master] killing on exit")
     with suppress(ProcessLookupError):
@@ -172,16 +176,17 @@ def end_master(process: subprocess.Popen[bytes], log: Log) -> None:
     except subprocess.TimeoutExpired:
         process.kill()
         process.wait()
+    guard.ended(process.pid)
 
 
-def run_nodes(plan: Plan, given: Values, packages: PackageIndex, log: Log, *, first: int) -> None:
+def run_nodes(plan: Plan, given: Values, packages: PackageIndex, log: Log, guard: Guard, *, first: int) -> None:
     """Start the nodes, wait until all have ended or Ctrl-C, and shut down the rest."""
     from rosmini.ros.launch.running import Launch
     from rosmini.ros.net import connect
 
     with connect() as graph:
         running = Launch(
-            plan, graph, maker(plan, graph, packages, log),
+            plan, graph, maker(plan, graph, packages, log, guard),
             say=log.say, warn=log.complain, first=first,
             sigint_timeout=given.sigint_timeout, sigterm_timeout=given.sigterm_timeout,
         )  # fmt: skip
@@ -200,7 +205,9 @@ def run_nodes(plan: Plan, given: Values, packages: PackageIndex, log: Log, *, fi
             running.kill()
 
 
-def maker(plan: Plan, graph: Graph, packages: PackageIndex, log: Log) -> Callable[[NodePlan, str], Running]:
+def maker(
+    plan: Plan, graph: Graph, packages: PackageIndex, log: Log, guard: Guard
+) -> Callable[[NodePlan, str], Running]:
     """Return a function that creates the handles of nodes as processes."""
     from rosmini.ros.launch.executables import program
     from rosmini.ros.launch.processes import ProcessHandle, ProcessSpec, environment
@@ -215,7 +222,7 @@ def maker(plan: Plan, graph: Graph, packages: PackageIndex, log: Log) -> Callabl
         output = None if node.output == "screen" else Path(f"{base}-stdout.log")
         environ = environment(os.environ, node.environment, node.namespace)
         spec = ProcessSpec(name, words, environ, folder_of(node, found.folder, log), output)
-        handle: ProcessHandle = ProcessHandle(graph, spec)
+        handle: ProcessHandle = ProcessHandle(graph, spec, guard)
         return Running(name, node, handle, base)
 
     return make

@@ -19,6 +19,7 @@ from rosmini.ros.introspection.wtf.heard_rules import Heard, Transform
 from rosmini.ros.introspection.wtf.survey import survey
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from optparse import Values
 
     from rosmini.ros.launch import Plan
@@ -132,9 +133,16 @@ def _listen(call: Call, seconds: float) -> Heard:
     call.say(f"listening to /tf and /rosout for {seconds:g} s")
     with tool_node(graph, "roswtf") as node:
 
-        def transforms(message: Any) -> None:
-            sender = str((getattr(message, "_connection_header", None) or {}).get("callerid", "unknown"))
-            heard.transforms.extend(Transform(each.child_frame_id.lstrip("/"), sender) for each in message.transforms)
+        def transforms(is_static: bool) -> Callable[[Any], None]:
+            def hear(message: Any) -> None:
+                sender = str((getattr(message, "_connection_header", None) or {}).get("callerid", "unknown"))
+                now = graph.now().to_nsec() or None  # simulated time that has not begun
+                for each in message.transforms:
+                    stamp = each.header.stamp.to_nsec()
+                    parent, child = (frame.lstrip("/") for frame in (each.header.frame_id, each.child_frame_id))
+                    heard.transforms.append(Transform(parent, child, sender, stamp, now, is_static))
+
+            return hear
 
         def log(message: Any) -> None:
             if message.level >= ROSOUT_ERROR:
@@ -143,8 +151,8 @@ def _listen(call: Call, seconds: float) -> Heard:
                 heard.warnings.append((message.name, message.msg))
 
         tf = message_class("tf2_msgs/TFMessage")
-        node.subscriber("/tf", tf, transforms)
-        node.subscriber("/tf_static", tf, transforms)
+        node.subscriber("/tf", tf, transforms(False))
+        node.subscriber("/tf_static", tf, transforms(True))
         node.subscriber("/rosout_agg", message_class("rosgraph_msgs/Log"), log)
         span = Span.of(graph, round(max(seconds, 0.0) * 1e9))
         for _ in span.every(100_000_000):

@@ -244,6 +244,18 @@ def test_a_required_node_ends_the_launch_and_stubborn_ones_are_killed(session: S
     assert not any(map(runs, session.pids()))
 
 
+@pytest.mark.processes
+@pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX groups of processes")
+def test_nodes_die_with_a_launcher_that_is_killed(session: Session) -> None:
+    process = session.launch('<node pkg="speaking" type="talker.py" name="talker" output="screen"/>')
+    session.until_said("/talker None /chatter", process)
+    pids = session.pids()
+    assert len(pids) == 3  # the Master, /rosout in the same process, the node
+    process.kill()
+    process.wait()
+    wait_until(lambda: not any(map(runs, pids)), "end of all nodes")
+
+
 def test_in_a_notebook_the_nodes_run_in_its_graph(source: Path, capsys: Any) -> None:
     (source / "speaking" / "launch" / "one.launch").write_text(
         '<launch><node pkg="speaking" type="talker.py" name="talker"/></launch>', encoding="utf-8"

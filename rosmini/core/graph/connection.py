@@ -432,8 +432,7 @@ class Connection:
             node.logger.log(
                 LEVELS["INFO"],
                 f"the callback of {node.name} takes messages on {topic} more slowly than {self.peer} publishes them: "
-                f"with queue_size={subscription.queue_size}, the oldest are dropped. `rostopic info -v {topic}` counts "
-                "them.",
+                f"with queue_size={subscription.queue_size}, the oldest are dropped.",
                 is_shown=False,
             )
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import subprocess
+import sys
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -15,6 +16,8 @@ from rosmini.core.errors import ScriptError
 from rosmini.ros.scripts.console import Console
 from rosmini.ros.scripts.handle import LaneHandle
 
+from . import guard as guard_program
+
 if TYPE_CHECKING:
     from rosmini.core.graph import Graph
 
@@ -22,6 +25,41 @@ POLL_NS = 50_000_000
 """Period at which a process is polled for its end [ns]."""
 
 ON_POSIX = os.name == "posix"
+
+
+class Guard:
+    """Ensures that no process outlives this one, however this one ends; on POSIX."""
+
+    def __init__(self) -> None:
+        self._process: Any = None
+        if ON_POSIX:
+            self._process = subprocess.Popen(
+                [sys.executable, "-I", "-S", guard_program.__file__],
+                stdin=subprocess.PIPE,
+                encoding="utf-8",
+                start_new_session=True,
+            )
+
+    def started(self, pid: int) -> None:
+        """Record a process that was started and leads a process group."""
+        self._write(f"+{pid}\n")
+
+    def ended(self, pid: int) -> None:
+        """Record that a process has ended."""
+        self._write(f"-{pid}\n")
+
+    def close(self) -> None:
+        """End the remaining processes and the guard."""
+        if self._process is not None:
+            with suppress(OSError):
+                self._process.stdin.close()
+            self._process.wait()
+
+    def _write(self, line: str) -> None:
+        if self._process is not None:
+            with suppress(OSError):  # it was killed
+                self._process.stdin.write(line)
+                self._process.stdin.flush()
 
 
 @dataclass(frozen=True)
@@ -41,9 +79,10 @@ class ProcessHandle(LaneHandle):
     Times are those of `graph`, which must be in wall-clock time. Raises ``ScriptError`` if it cannot be started.
     """
 
-    def __init__(self, graph: Graph, spec: ProcessSpec) -> None:
+    def __init__(self, graph: Graph, spec: ProcessSpec, guard: Guard) -> None:
         super().__init__(graph, spec.words, lambda: Console(graph.scheduler))
         self.spec = spec
+        self._guard = guard
         self._process: subprocess.Popen[bytes] | None = None
         self._has_started = False
 
@@ -71,6 +110,7 @@ class ProcessHandle(LaneHandle):
             if output is not None:
                 output.close()
         self._has_started = True
+        self._guard.started(self._process.pid)
         self._schedule_poll()
 
     def _schedule_poll(self) -> None:
@@ -83,6 +123,7 @@ class ProcessHandle(LaneHandle):
         if process.poll() is None:
             self._schedule_poll()
         else:
+            self._guard.ended(process.pid)
             self._conclude(process.returncode)
 
     def _signal(self, signum: signal.Signals) -> None:
@@ -105,6 +146,7 @@ class ProcessHandle(LaneHandle):
                 else:
                     process.kill()
             process.wait()
+            self._guard.ended(process.pid)
         self._conclude(returncode)
 
 
