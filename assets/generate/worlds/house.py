@@ -10,7 +10,7 @@ import math
 
 from rosmini.sim.shapes import Sphere
 from rosmini.sim.world import Obstacle, World
-from rosmini.sim.worlds.walls import wall
+from .walls import wall
 
 from .furniture import bed, block, chair, corner, desk, facing, post, round_table, sofa, table
 

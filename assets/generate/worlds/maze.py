@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rosmini.core.geometry.poses import Pose
 from rosmini.sim.world import Obstacle, World
-from rosmini.sim.worlds.walls import wall
+from .walls import wall
 
 COLUMNS, ROWS = 10, 8
 CELL = 1.0

@@ -10,7 +10,7 @@ import math
 from rosmini.sim.motion import Door, Walk
 from rosmini.sim.shapes import Box, Cylinder
 from rosmini.sim.world import Obstacle, World
-from rosmini.sim.worlds.walls import wall
+from .walls import wall
 
 from .furniture import block, chair, corner, desk, facing, post, round_table, sofa, table
 

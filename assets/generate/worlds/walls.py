@@ -1,4 +1,4 @@
-"""Straight walls with gaps for doors, used by rosmini's worlds and the random ones. Lengths in metres."""
+"""Straight walls with gaps for doors, used by the worlds that are generated. Lengths in metres."""
 
 from __future__ import annotations
 
