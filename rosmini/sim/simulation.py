@@ -204,11 +204,9 @@ class Simulation(ABC):
     # -- pictures ------------------------------------------------------------------------------------------------
 
     def show(self, **options: Any) -> Any:
-        """Return a picture of the world as it is now, with its robots.
+        """Return a picture of the world as it is now, with its robots and the first robot's last scan.
 
         Options and their defaults:
-            scan=True: draw the first robot's last scan, if there is one
-            trail=None: the robot's path: a `Recording`, whose odometry is drawn too, or poses (n, 2) or (n, 3)
             title=None: a caption under the picture, and the first words of its text form
             size=(660.0, 540.0): the largest width and height [CSS px]
         """

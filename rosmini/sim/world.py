@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 
 from rosmini.core.geometry import polygons
 from rosmini.core.geometry.poses import Pose
-from rosmini.core.graph.show import show
 from rosmini.sim.geometry.raycast import raycast
 
 from .fixtures import Fixtures, Footprint
@@ -376,35 +375,6 @@ class World:
         own = {each.name: vars(self)[each.name] for each in fields(self)}
         vars(new).update(own, obstacles=tuple(obstacles))  # skip the checks, which have already been made
         return new
-
-    def show(self, **options: Any) -> Any:
-        """Return a picture of the world from above, in metres.
-
-        Options and their defaults:
-            robot=None: the robot's pose: x [m], y [m], heading [rad], in the world's frame; None: no robot
-            model=None: the robot's model; None: a TurtleBot3 Burger
-            scan=None: its laser scan: a `sensor_msgs/LaserScan`, or ranges [m], beam i at 2 pi i / beams
-            scan_from=None: the robot's pose at the scan, or at each beam (beams, 3); None: its current pose
-            trail=None: the robot's path, (n, 2) or (n, 3): a solid line
-            odom=None: its path by odometry, (n, 2) or (n, 3): a dashed line
-            others=(): more robots, each an `Other`: they are drawn in other colours, with their names
-            name='': the robot's name, if there are others
-            title=None: a caption under the picture, and the first words of its text form
-            size=(660.0, 540.0): the largest width and height [CSS px]
-        """
-        return show("world", self, **options)
-
-    def show3d(self, **options: Any) -> Any:
-        """Return a view of the world in three dimensions.
-
-        Options and their defaults:
-            distance=None: of the camera from its target [m]; None: chosen automatically
-            azimuth=None: direction of the camera [deg], 0: from the side of x, 90: of y; None: chosen automatically
-            elevation=None: elevation of the camera [deg]; None: chosen automatically
-            title=None: a caption under the picture, and the first words of its text form
-            height=420: of the viewer [CSS px]
-        """
-        return show("world_3d", self, **options)
 
 
 # ---- validation ----

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from rosmini.viz.rqt.graph_state import GraphState
     from rosmini.viz.sequences import sequence_diagram
     from rosmini.viz.state_machine import action_states
-    from rosmini.viz.world_pictures import world_picture
 
 __all__ = [
     "GraphState",
@@ -38,7 +37,6 @@ __all__ = [
     "rqt_bag",
     "rqt_graph",
     "sequence_diagram",
-    "world_picture",
 ]
 
 _LATER = {
@@ -52,7 +50,6 @@ _LATER = {
     "plot": "rosmini.viz.plots",
     "rqt_bag": "rosmini.viz.rqt.bag",
     "sequence_diagram": "rosmini.viz.sequences",
-    "world_picture": "rosmini.viz.world_pictures",
 }
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -14,18 +14,8 @@ from rosmini.core.geometry.poses import Pose, compose, inverse
 from rosmini.core.geometry.products import norms
 from rosmini.sim.models import BURGER, RobotModel
 from rosmini.sim.world import Obstacle, World
-from rosmini.viz.beams import Beams, beams_of
-from rosmini.viz.figures import (
-    MAX_SIZE,
-    WIDTH,
-    add_axes,
-    blank_figure,
-    house_style,
-    legend,
-    legend_width,
-    set_ticks,
-    step_of,
-)
+from rosmini.viz.beams import Beams
+from rosmini.viz.figures import MAX_SIZE, add_axes, blank_figure, house_style, legend, legend_width, set_ticks, step_of
 from rosmini.viz.rounding import degrees, fixed
 from rosmini.viz.style import LIGHT
 from rosmini.viz.view import Picture, ViewError, matplotlib_picture
@@ -63,51 +53,6 @@ COLOURS = ("green", "purple", "sky", "vermilion", "orange")
 """Colours of robots other than the first one, which is blue."""
 
 
-def world_picture(
-    world: World,
-    *,
-    robot: Sequence[float] | None = None,
-    model: RobotModel | None = None,
-    scan: Any = None,
-    scan_from: Sequence[float] | Floats | None = None,
-    trail: ArrayLike | None = None,
-    odom: ArrayLike | None = None,
-    others: Iterable[Other] = (),
-    name: str = "",
-    title: str | None = None,
-    size: tuple[float, float] = (WIDTH, HEIGHT),
-) -> Picture:
-    """Draw a world from above, in metres, to scale.
-
-    Args:
-        world: the world to draw.
-        robot: the robot's pose: x [m], y [m], heading [rad], in the world's frame.
-        model: the robot's model; by default the TurtleBot3 Burger.
-        scan: its laser scan: a `sensor_msgs/LaserScan`, or ranges [m], where beam i has the direction 2 pi i / beams.
-        scan_from: the robot's pose at the scan, or at each beam (beams, 3); by default its current pose.
-        trail: past positions of the robot, (n, 2) or (n, 3), in the world's frame: a solid line.
-        odom: the same according to its odometry: a dashed line.
-        others: further robots, each an `Other`: they are drawn in other colours, with their names.
-        name: the robot's name, used if there are others.
-        title: a caption under the picture, and the first words of its text form.
-        size: the largest width and height [CSS px].
-
-    Raises:
-        ViewError: a pose, a scan or a trail is invalid; the message says what is wrong with it.
-
-    """
-    if not isinstance(world, World):
-        raise ViewError(
-            f"a world is drawn from a rosmini.sim World, not from a {type(world).__name__}: "
-            "rosmini.sim.worlds.world('room') is one"
-        )
-    scene = Scene(world)
-    scene.fill(
-        robot=robot, model=model, scan=scan, scan_from=scan_from, trail=trail, odom=odom, others=others, name=name
-    )  # fmt: skip
-    return scene.picture(title, size)
-
-
 @dataclass(frozen=True)
 class Other:
     """Another robot in a picture."""
@@ -117,12 +62,6 @@ class Other:
     pose: Pose
     trail: Floats | None = None
     """Past positions, (n, 2) or (n, 3)."""
-
-    def checked(self) -> Other:
-        """Return a validated copy. Raises `ViewError` if it cannot be drawn."""
-        what = f"of the robot {self.name!r}"
-        trail = None if self.trail is None else line_of(self.trail, f"the trail {what}")
-        return replace(self, pose=pose_of(self.pose, f"the pose {what}"), trail=trail)
 
 
 def colour_of(number: int) -> str:
@@ -152,26 +91,6 @@ class Scene:
         """Objects at their places before they were moved."""
         self.moved_paths: list[tuple[Floats, str]] = []
         """Paths of moved objects, (n, 2), and their colours."""
-
-    def fill(
-        self, *, robot: Sequence[float] | None, model: RobotModel | None, scan: Any,
-        scan_from: Sequence[float] | Floats | None, trail: ArrayLike | None, odom: ArrayLike | None,
-        others: Iterable[Other], name: str,
-    ) -> None:  # fmt: skip
-        """Add robots, their scans and paths, in the forms that `world_picture` takes. Raises `ViewError`."""
-        self.model = model or BURGER
-        if robot is not None:
-            self.robot = pose_of(robot, "the robot's pose")
-        if scan is not None:
-            each: Any = self.robot if scan_from is None else scan_from
-            if each is None:
-                raise ViewError("a scan is drawn from where it was taken: give robot=(x, y, heading) with it")
-            several = np.ndim(each) == 2
-            first = pose_of(each[0] if several else each, "the pose of a scan")
-            self.add_scan(beams_of(scan, self.model.laser), first, each if several else None)
-        self.trail = None if trail is None else line_of(trail, "trail")
-        self.odom = None if odom is None else line_of(odom, "odom")
-        self.others, self.name = [other.checked() for other in others], name
 
     def add_scan(self, beams: Beams, robot: Pose, each: Floats | None) -> None:
         """Add the scan of a robot at the pose `robot`, or with one of the poses `each` (beams, 3) per beam."""
@@ -274,18 +193,10 @@ class Scene:
             named = self.name and (self.others or self.alone_too)
             lines.append(f"{self.name if named else self.model.name}: pose {pose_text(self.robot)}")
         for other in self.others:
-            driven = "" if other.trail is None else f", {fixed(length_of(other.trail), 2)} m driven"
             kind = f" ({other.model.name})" if other.model.name != other.name else ""
-            lines.append(f"{other.name}{kind}: pose {pose_text(other.pose)}{driven}")
+            lines.append(f"{other.name}{kind}: pose {pose_text(other.pose)}")
         if self.beams is not None:
             lines.append(f"scan: {self.beams.text()}")
-        if self.trail is not None:
-            lines.append(f"trail: {fixed(length_of(self.trail), 2)} m")
-        off = self._odometry_error()
-        if off is not None:
-            lines.append(f"odometry: {off} m off at the end")
-        elif self.odom is not None:
-            lines.append(f"odometry: {fixed(length_of(self.odom), 2)} m")
         return "\n".join(lines)
 
     def alt(self) -> str:
@@ -298,18 +209,7 @@ class Scene:
             said.append(_others_sentence(self.others))
         if self.beams is not None:
             said.append(_sentence(self.beams.clause()))
-        if self.trail is not None:
-            said.append(f"A solid line shows where it was, {fixed(length_of(self.trail), 2)} m long.")
-        if self.odom is not None:
-            off = self._odometry_error()
-            end = f", at the end {off} m off" if off is not None else ""
-            said.append(f"A dashed line shows where odometry believes that it was{end}.")
         return " ".join(said)
-
-    def _odometry_error(self) -> str | None:
-        if self.trail is None or self.odom is None or len(self.trail) != len(self.odom):
-            return None
-        return fixed(math.dist(self.trail[-1, :2], self.odom[-1, :2]), 3)
 
 
 def _others_sentence(others: list[Other]) -> str:

@@ -14,21 +14,16 @@ from rosmini.sim.turtlesim import Frame
 from rosmini.sim.turtlesim.turtle import STEP_S
 from rosmini.sim.urdf import load
 from rosmini.sim.worlds import world
-from rosmini.viz import (
-    action_states,
-    byte_map,
-    grid,
-    matplotlib_picture,
-    plot,
-    rqt_graph,
-    sequence_diagram,
-    world_picture,
-)
+from rosmini.viz import action_states, byte_map, grid, matplotlib_picture, plot, rqt_graph, sequence_diagram
+from rosmini.viz.beams import beams_of
+from rosmini.viz.figures import WIDTH
 from rosmini.viz.rviz import Scene
 from rosmini.viz.rviz.picture import still
 from rosmini.viz.tf_trees import tf_tree
 from rosmini.viz.turtle_pictures import turtle_picture
 from rosmini.viz.urdf_trees import urdf_tree
+from rosmini.viz.world_pictures import HEIGHT
+from rosmini.viz.world_pictures import Scene as WorldScene
 
 SYSTEM = [
     [["/chatter", ["/talker"]], ["/scan", ["/robot"]]],
@@ -44,7 +39,10 @@ ARM = """<robot name="arm"><link name="base"/><link name="upper"/><link name="ha
 def _world():
     way = [(0.0, 0.0), (0.5, 0.2), (1.0, 0.6), (1.0, 1.0)]
     odom = [(x, y - 0.2 * x) for x, y in way]
-    return world_picture(world("room"), robot=(1.0, 1.0, 1.0), scan=np.ones(360), trail=way, odom=odom)
+    scene = WorldScene(world("room"))
+    scene.robot, scene.trail, scene.odom = (1.0, 1.0, 1.0), np.array(way), np.array(odom)
+    scene.add_scan(beams_of(np.ones(360), scene.model.laser), scene.robot, None)
+    return scene.picture(None, (WIDTH, HEIGHT))
 
 
 def _plot():
@@ -130,7 +128,7 @@ KINDS = {
     "own_figure": _own_figure,
     "rviz": _rviz,
     "grid": lambda: grid(
-        world_picture(world("room"), size=(320, 320), title="a world"),
+        WorldScene(world("room")).picture("a world", (320, 320)),
         plot({"speed": ([0, 1, 2], [0, 2, 1])}, x="t [s]", y="v [m/s]", width=320, title="a plot"),
     ),
 }

@@ -17,13 +17,13 @@ from rosmini.core.tf import StaticTransformBroadcaster
 from rosmini.msgs.geometry_msgs.msg import PoseStamped
 from rosmini.msgs.nav_msgs.msg import OccupancyGrid
 from rosmini.sim.gazebo import GazeboServer
-from rosmini.sim.models import BURGER
+from rosmini.sim.models import BURGER, WAFFLE
 from rosmini.sim.recording import Recording
 from rosmini.sim.urdf import load
 from rosmini.sim.urdf.xacro import expand
 from rosmini.sim.worlds import world
 from rosmini.viz.embed import MESHCAT, STATIC, asset_path
-from rosmini.viz.meshcat import replay_3d, robot_3d, urdf_3d, world_3d
+from rosmini.viz.meshcat import replay_3d, robot_3d, urdf_3d
 from rosmini.viz.replay import Body, Grid, Grids, Run, Shape, Shapes
 from rosmini.viz.rviz import Scene, turnable
 
@@ -97,7 +97,7 @@ def site(tmp_path_factory):
     (folder / "deep" / "er").mkdir(parents=True)
     views = {
         "robot": robot_3d(world("room"), BURGER, (0.3, 0.2, 0.4), np.full(360, 0.6)),
-        "world": world_3d(world("room")),
+        "waffle": robot_3d(world("room"), WAFFLE, (0.3, 0.2, 0.4)),
         "replay": replay_3d(run()),
         "urdf": urdf_3d(load("package://turtlebot3_description/urdf/turtlebot3_waffle.urdf.xacro")),
         "gazebo": two_in_gazebo(),

@@ -4,11 +4,14 @@ import numpy as np
 import pytest
 
 from rosmini.sim.worlds import world
-from rosmini.viz import rqt_graph, style, world_picture
+from rosmini.viz import rqt_graph, style
+from rosmini.viz.beams import beams_of
 from rosmini.viz.embed import STATIC
+from rosmini.viz.world_pictures import Scene
 
 pytestmark = pytest.mark.browser
 
+SIZE = (660, 540)
 SHEET = (STATIC / "rosmini.css").read_text(encoding="utf-8")
 
 PAINTS = """(selector) => [...document.querySelectorAll(selector)].map((node) => {
@@ -41,7 +44,10 @@ def show(tabs):
 def test_every_colour_is_that_of_the_theme(show, theme, palette):
     room = world("room")
     trail = [(0, 0), (1, 0), (1, 1)]
-    page = show(theme, world_picture(room, robot=(1, 1, 1), scan=np.ones(360), trail=trail, odom=trail))
+    scene = Scene(room)
+    scene.robot, scene.trail, scene.odom = (1.0, 1.0, 1.0), np.array(trail), np.array(trail)
+    scene.add_scan(beams_of(np.ones(360), scene.model.laser), scene.robot, None)
+    page = show(theme, scene.picture(None, SIZE))
     paints = page.evaluate(PAINTS, ".rosmini-plot :is(path, text, use):not(defs *)")
     allowed = {"none", *(rgb(colour) for colour in palette.values())}
     used = {paint for fill, stroke, _ in paints for paint in (fill, stroke)}
@@ -51,7 +57,9 @@ def test_every_colour_is_that_of_the_theme(show, theme, palette):
 
 def test_pictures_on_one_page_leave_one_another_alone(show):
     system = [[["/chatter", ["/talker"]]], [["/chatter", ["/listener"]]], []]
-    room = world_picture(world("room"), robot=(0, 0, 0))
+    scene = Scene(world("room"))
+    scene.robot = (0.0, 0.0, 0.0)
+    room = scene.picture(None, SIZE)
     alone = show("dark", room).evaluate(PAINTS, ".rosmini-plot *")
     graph = show("dark", rqt_graph(system)).evaluate(PAINTS, ".rosmini-svg *")
     page = show("dark", room, rqt_graph(system))
@@ -60,7 +68,7 @@ def test_pictures_on_one_page_leave_one_another_alone(show):
 
 
 def test_on_a_narrow_page_the_picture_shrinks(show):
-    page = show("light", world_picture(world("room")))
+    page = show("light", Scene(world("room")).picture(None, SIZE))
     page.set_viewport_size({"width": 480, "height": 800})
     box = page.locator(".rosmini-plot").bounding_box()
     assert box["width"] < 470

@@ -6,7 +6,8 @@ import xml.etree.ElementTree as ET
 import pytest
 
 from rosmini.sim.worlds import world
-from rosmini.viz import Picture, ViewError, grid, plot, rqt_graph, world_picture
+from rosmini.viz import Picture, ViewError, grid, plot, rqt_graph
+from rosmini.viz.world_pictures import Scene
 
 SYSTEM = [[["/chatter", ["/talker"]]], [["/chatter", ["/listener"]]], []]
 PNG = base64.b64decode(
@@ -18,7 +19,7 @@ TAG = "{http://www.w3.org/2000/svg}"
 @pytest.fixture
 def views():
     return (
-        world_picture(world("room"), title="the room"),
+        Scene(world("room")).picture("the room", (660, 540)),
         plot({"speed": ([0, 1], [0, 1])}, x="t [s]", y="v [m/s]", title="the speed"),
         rqt_graph(SYSTEM),
     )

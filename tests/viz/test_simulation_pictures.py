@@ -9,7 +9,6 @@ import pytest
 from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
 from rosmini.sim.engine import RobotGone
-from rosmini.sim.recorder import Recorder
 from rosmini.sim.simulator import Simulator
 from rosmini.viz import style
 from rosmini.viz.simulation_pictures import simulation_picture
@@ -47,7 +46,6 @@ def test_a_simulation_shows_the_robot_where_it_is_and_its_last_scan(graph):
     assert f"burger: pose ({x:.2f}, {y:.2f}, " in view.text
     assert 0.4 < x < 0.61
     assert re.search(r"scan: 3\d\d of 360 beams hit, nearest 0\.\d\d m", view.text)
-    assert "scan" not in simulation_picture(simulator, scan=False).text
     assert simulator.show().html == simulation_picture(simulator).html
 
 
@@ -63,22 +61,6 @@ def test_while_the_robot_turns_the_scan_stays_where_it_was_taken(graph):
     assert np.std(lowest) < 2.0
 
 
-def test_a_recording_is_the_trail(graph):
-    simulator = Simulator(graph.node("simulator"))
-    recorder = Recorder(graph, simulator)
-    drive(graph, 0.2, 0.5, 4.0)
-    recording = recorder.recording()
-    assert recording.duration == pytest.approx(3.97, abs=0.05)
-    assert recording.distance == pytest.approx(0.76, abs=0.05)
-    assert len(recording.scans) == pytest.approx(20, abs=1)
-    assert math.dist(recording.truth[-1], simulator.truth()) < 0.03
-    view = simulation_picture(simulator, trail=recording)
-    assert f"trail: {recording.distance:.2f} m" in view.text
-    assert "odometry: 0.0" in view.text
-    assert "odometry: 0.0" in recording.show().text
-    assert "trail" in simulation_picture(simulator, trail=recording.truth).text
-
-
 def test_a_removed_robot_is_an_error_that_says_so(graph):
     simulator = Simulator(graph.node("simulator"))
     simulator.remove()
@@ -86,12 +68,11 @@ def test_a_removed_robot_is_an_error_that_says_so(graph):
         simulation_picture(simulator)
 
 
-def test_all_robots_are_drawn_with_their_names_and_ways(graph):
+def test_all_robots_are_drawn_with_their_names(graph):
     simulator = Simulator(graph.node("simulator"), model="burger")
     simulator.spawn("tb3_1", "waffle", (2.05, 1.22, math.pi))
-    recorder = Recorder(graph, simulator)
     drive(graph, 0.2, 0.0, 2.0)
-    view = simulation_picture(simulator, trail=recorder.recording())
-    assert "tb3_1 (waffle): pose (2.05, 1.22, 180.0 deg), 0.00 m driven" in view.text
+    view = simulation_picture(simulator)
+    assert "tb3_1 (waffle): pose (2.05, 1.22, 180.0 deg)" in view.text
     assert "Beside it there is tb3_1 at x 2.05 m, y 1.22 m." in view.alt
     assert ">tb3_1</text>" in view.svg and f'fill="{style.LIGHT["green"]}"' in view.svg

@@ -128,14 +128,6 @@ class Pictured(ABC):
         """Return a picture of the world from above.
 
         Options and their defaults:
-            robot=None: the pose of the robot of `scan`, `trail` and `odom`; None: the pose of `name`
-            model=None: the robot model; None: as Gazebo has it
-            scan=None: its laser scan: a `sensor_msgs/LaserScan`, or ranges [m]
-            scan_from=None: its pose at the scan; None: its current pose
-            trail=None: its path, (n, 2) or (n, 3)
-            odom=None: its path by odometry, (n, 2) or (n, 3)
-            others=(): more robots, each an `Other`
-            name='': the model that is drawn as the first robot; '': the first one with a drive
             title=None: a caption under the picture, and the first words of its text form
             size=(660.0, 540.0): the largest width and height [CSS px]
         """

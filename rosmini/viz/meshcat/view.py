@@ -155,20 +155,6 @@ def free_sight(world: World, pose: Pose, distance: float) -> tuple[float, float]
     return (ahead - 38.0, 60.0)
 
 
-def world_3d(
-    world: World, *, distance: float | None = None, azimuth: float | None = None, elevation: float | None = None,
-    title: str | None = None, height: int = HEIGHT,
-) -> MeshcatView:  # fmt: skip
-    """Show a world in three dimensions: everything in it, with its height."""
-    camera = camera_for(world, None, focus="world", distance=distance, azimuth=azimuth, elevation=elevation)
-    scene = Scene3D(camera)
-    scene.add_world(world)
-    label = f"{title_of(world)} in 3D"
-    text = f"3D: {_contents(world)}"
-    alt = f"{title_of(world)} in three dimensions, seen from above at an angle: {_contents(world)}."
-    return MeshcatView(scene, label=label, text=text, alt=alt, title=title, height=height)
-
-
 def simulation_3d(
     simulator: Simulator, *, focus: Focus = "robot", distance: float | None = None, azimuth: float | None = None,
     elevation: float | None = None, title: str | None = None, height: int = HEIGHT,

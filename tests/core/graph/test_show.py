@@ -17,7 +17,6 @@ SHOWN = {
     "rosmini.core.graph:Graph": {"show": "computation_graph"},
     "rosmini.sim.urdf.model:Robot": {"show": "robot", "show3d": "robot_3d"},
     "rosmini.sim.simulator:Simulator": {"show": "simulation", **DRIVEN},
-    "rosmini.sim.world:World": {"show": "world", "show3d": "world_3d"},
     "rosmini.sim.recording:Recording": {
         "show": "recording",
         "plots": "recording_plots",

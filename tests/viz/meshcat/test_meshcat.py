@@ -20,10 +20,11 @@ from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, Sphere, World
 from rosmini.sim.worlds import world
 from rosmini.viz import ViewError
-from rosmini.viz.meshcat import replay_3d, robot_3d, world_3d
+from rosmini.viz.meshcat import MeshcatView, replay_3d, robot_3d
 from rosmini.viz.meshcat.drawing import HEIGHT, WIDTH, draw
 from rosmini.viz.meshcat.scene3d import Camera, Scene3D, planar
 from rosmini.viz.meshcat.solids import Ball, Prism, Rod
+from rosmini.viz.meshcat.view import camera_for
 from rosmini.viz.replay import Body, Run, Shape, Shapes
 
 from ..replay import unpacking
@@ -39,6 +40,14 @@ SMALL = World(
     walls=np.array([(-2.0, -1.0, 2.0, -1.0)]),
     wall_height=0.4,
 )
+
+
+def world_3d(world, **options):
+    """Show only a world."""
+    usual = {"distance": None, "azimuth": None, "elevation": None}
+    scene = Scene3D(camera_for(world, None, focus="world", **usual | options))
+    scene.add_world(world)
+    return MeshcatView(scene, label="a world", text="3D", alt="A world.")
 
 
 def commands(view_or_scene):
