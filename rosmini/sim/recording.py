@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.core.errors import RosminiError, nearest
+from rosmini.core.errors import RosminiError
 from rosmini.core.geometry.angles import normalize_angle
 from rosmini.core.geometry.poses import compose, inverse
 from rosmini.core.geometry.products import norms
@@ -150,17 +150,6 @@ class Recording:
         """The runs of all robots, this one first."""
         return (self, *self.others)
 
-    def of(self, name: str) -> Recording:
-        """Return the same run with the robot called `name` as the first. Raises `RecordingError`."""
-        for each in self.robots:
-            if each.name == name:
-                rest = tuple(replace(other, others=(), things=()) for other in self.robots if other is not each)
-                return replace(each, others=rest, things=self.things)
-        there = ", ".join(repr(each.name) for each in self.robots)
-        raise RecordingError(
-            f"no robot {name!r} was recorded, but {there}. {nearest(name, [r.name for r in self.robots])}".rstrip()
-        )
-
     def world_at(self, time: float) -> World:
         """Return the world with its obstacles at their poses at this time."""
         moved = {thing.obstacle.name: thing.at(time) for thing in self.things}
@@ -211,35 +200,6 @@ class Recording:
         """Return the robot's true pose at each beam of a scan (beams, 3)."""
         times = self.scan_times[which] + self.time_increment * np.arange(self.scans.shape[1])
         return np.column_stack([np.interp(times, self.times, column) for column in self.truth.T])
-
-    def window(self, t0: float, t1: float) -> Recording:
-        """Return the part of the run from `t0` to `t1`; times are unchanged, the command in force at `t0` is included.
-
-        Raises:
-            RecordingError: there is no sample between the two.
-
-        """
-        inside = (self.times >= t0) & (self.times <= t1)
-        if not inside.any():
-            raise RecordingError(
-                f"nothing was recorded from {t0} s to {t1} s: this recording goes from {self.times[0]:.2f} s to "
-                f"{self.times[-1]:.2f} s"
-            )
-        seen = (self.scan_times >= t0) & (self.scan_times <= t1)
-        return replace(
-            self,
-            times=self.times[inside],
-            truth=self.truth[inside],
-            odom=self.odom[inside],
-            commands=since(self.commands[self.commands[:, 0] <= t1], t0),
-            scan_times=self.scan_times[seen],
-            scans=self.scans[seen],
-            others=tuple(
-                other.window(t0, t1) for other in self.others if ((other.times >= t0) & (other.times <= t1)).any()
-            ),
-            things=tuple(thing.window(t0, t1) for thing in self.things),
-            messages=_in_force(self.messages, t0, t1),
-        )
 
     def show(self, **options: Any) -> Any:
         """Return a picture of the run from above.
@@ -300,21 +260,6 @@ def since(commands: Floats, begin: float) -> Floats:
         return after
     before[:, 0] = begin
     return np.vstack([before, after])
-
-
-def _in_force(messages: tuple[tuple[float, str, Any], ...], t0: float, t1: float) -> tuple[tuple[float, str, Any], ...]:
-    """Return the messages from `t0` to `t1`, preceded by the last earlier one on each topic, with the time `t0`.
-
-    All transforms before `t0` are kept, with their times, because some are valid permanently.
-    """
-    before: dict[str, tuple[float, str, Any]] = {}
-    early = []
-    for time, topic, message in messages:
-        if time < t0 and topic.rpartition("/")[2] in ("tf", "tf_static"):
-            early.append((time, topic, message))
-        elif time < t0:
-            before[topic] = (t0, topic, message)
-    return (*early, *before.values(), *(each for each in messages if t0 <= each[0] <= t1))
 
 
 def _between(times: Floats, poses: Floats, time: float) -> tuple[float, float, float]:

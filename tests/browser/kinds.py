@@ -12,7 +12,6 @@ from rosmini.msgs.geometry_msgs.msg import PoseStamped
 from rosmini.msgs.nav_msgs.msg import OccupancyGrid, Path
 from rosmini.sim.turtlesim import Frame
 from rosmini.sim.turtlesim.turtle import STEP_S
-from rosmini.sim.urdf import load
 from rosmini.sim.worlds import world
 from rosmini.viz import action_states, byte_map, grid, matplotlib_picture, plot, rqt_graph, sequence_diagram
 from rosmini.viz.beams import beams_of
@@ -21,7 +20,6 @@ from rosmini.viz.rviz import Scene
 from rosmini.viz.rviz.picture import still
 from rosmini.viz.tf_trees import tf_tree
 from rosmini.viz.turtle_pictures import turtle_picture
-from rosmini.viz.urdf_trees import urdf_tree
 from rosmini.viz.world_pictures import HEIGHT
 from rosmini.viz.world_pictures import Scene as WorldScene
 
@@ -30,10 +28,6 @@ SYSTEM = [
     [["/chatter", ["/listener"]], ["/scan", ["/listener"]]],
     [],
 ]
-ARM = """<robot name="arm"><link name="base"/><link name="upper"/><link name="hand"/>
-<joint name="shoulder" type="revolute"><parent link="base"/><child link="upper"/>
-<limit lower="-1" upper="2" effort="1" velocity="1"/></joint>
-<joint name="wrist" type="fixed"><parent link="upper"/><child link="hand"/></joint></robot>"""
 
 
 def _world():
@@ -122,7 +116,6 @@ KINDS = {
         title="it",
     ),
     "states": lambda: action_states("client"),
-    "links": lambda: urdf_tree(load(ARM)),
     "bytes": lambda: byte_map(b"\x05\0\0\0hello", [(4, "length: 5"), (5, "data")], title="it"),
     "turtles": _turtles,
     "own_figure": _own_figure,

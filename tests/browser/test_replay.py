@@ -22,6 +22,7 @@ from rosmini.viz import style
 from rosmini.viz.replay.encode import replay_data
 
 from ..conftest import nightly
+from ..recordings import part
 
 pytestmark = pytest.mark.browser
 
@@ -199,7 +200,7 @@ def test_it_waits_to_be_told_then_plays_and_pauses(write, opened, recording):
 def test_in_the_book_the_first_one_plays_once_when_it_comes_into_view(chromium, write, recording, form, reduced):
     motion = "reduce" if reduced else "no-preference"
     page = chromium.new_page(viewport={"width": 390, "height": 844}, reduced_motion=motion)
-    short = recording.window(0.0, 0.5)
+    short = part(recording, 0.0, 0.5)
     page.goto(write(short, short, form=form, before='<div style="height: 1500px"></div>'))
     page.wait_for_function("document.querySelectorAll('.rosmini-replay[data-state=paused]').length === 2")
     player, other = page.locator(".rosmini-replay").all()
@@ -222,7 +223,7 @@ def test_in_the_book_the_first_one_plays_once_when_it_comes_into_view(chromium, 
 
 
 def test_it_stops_at_the_end_and_begins_anew(write, opened, recording):
-    page = opened(write(recording.window(0.0, 1.0)))
+    page = opened(write(part(recording, 0.0, 1.0)))
     player = page.locator(".rosmini-replay")
     page.get_by_label("Speed").select_option("8")
     page.get_by_role("button", name="Play").click()
@@ -405,7 +406,7 @@ def test_it_does_not_run_where_nobody_sees_it(write, opened, recording):
 
 @pytest.mark.parametrize("form", ["book", *nightly("live")])
 def test_several_on_one_page_are_independent(write, opened, recording, form):
-    page = opened(write(recording, recording, recording.window(0.0, 4.0), form=form), reduced_motion="reduce")
+    page = opened(write(recording, recording, part(recording, 0.0, 4.0), form=form), reduced_motion="reduce")
     players = page.locator(".rosmini-replay")
     page.wait_for_function("document.querySelectorAll('.rosmini-replay[data-state]').length === 3")
     players.nth(1).get_by_role("button", name="Step forward").click()
@@ -442,7 +443,7 @@ def test_the_status_is_spoken_when_something_was_done_only(write, opened, record
 
 def test_a_run_of_one_sample_and_one_without_scans(write, opened, recording):
     blind = replace(recording, scan_times=np.empty(0), scans=np.empty((0, 360)), commands=np.empty((0, 3)))
-    page = opened(write(blind.window(0.0, 0.0)))
+    page = opened(write(part(blind, 0.0, 0.0)))
     assert page.locator("output").inner_text() == "0.0 / 0.0 s"
     for control in page.locator(".rr-bar button, [type=range]").all():
         assert control.is_disabled()

@@ -62,24 +62,6 @@ def test_the_pose_at_a_time_lies_between_the_samples():
     assert run.pose_at(9.0) == (1.0, 2.0, 4.0)
 
 
-def test_a_window_keeps_times_and_the_command_in_force():
-    run = recording(
-        [(x, 0, 0) for x in range(5)],
-        step=1.0,
-        commands=[(0, 0.1, 0), (1, 0.2, 0), (3, 0.3, 0), (4, 0.4, 0)],
-        scans=[[1, 2, 3, 4], [5, 6, 7, math.inf]],
-    )
-    part = run.window(1.5, 3.5)
-    assert part.times.tolist() == [2, 3]
-    assert part.truth[:, 0].tolist() == [2, 3]
-    assert part.commands.tolist() == [[1.5, 0.2, 0], [3, 0.3, 0]]
-    assert part.scan_times.tolist() == [2]
-    assert part.scans.tolist() == [[5, 6, 7, math.inf]]
-    assert part.distance == 1
-    with pytest.raises(RecordingError, match=r"from 7 s to 8 s: this recording goes from 0.00 s to 4.00 s"):
-        run.window(7, 8)
-
-
 @pytest.mark.parametrize(
     ("change", "message"),
     [

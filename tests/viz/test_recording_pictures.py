@@ -16,6 +16,8 @@ from rosmini.sim.worlds import world
 from rosmini.viz import ViewError, style
 from rosmini.viz.recording_pictures import recording_picture, recording_plots
 
+from ..recordings import part
+
 TIMES = np.linspace(0, 10, 301)
 
 
@@ -93,7 +95,7 @@ def test_a_run_that_nobody_commanded_can_be_plotted():
 
 
 def test_a_run_of_a_moment_has_a_picture_but_no_plots():
-    moment = run().window(0.0, 0.0)
+    moment = part(run(), 0.0, 0.0)
     assert "0.00 m in 0.0 s" in recording_picture(moment).text
     with pytest.raises(ViewError, match="without duration"):
         recording_plots(moment)

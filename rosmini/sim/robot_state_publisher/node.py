@@ -70,14 +70,6 @@ class RobotStatePublisher:
             node.timer(period, lambda _: self._send_fixed())
         node.subscriber("joint_states", message_class("sensor_msgs/JointState"), self._heard, queue_size=1, numpy=False)
 
-    def show(self, **options: Any) -> Any:
-        """Return a picture of the robot's links and joints.
-
-        Options and their defaults:
-            title=None: a caption under the picture, and the first words of its text form
-        """
-        return self.robot.show(**options)
-
     def _send(self, broadcaster: TransformBroadcaster, transforms: list[Sent], stamp_ns: int) -> None:
         if transforms:
             broadcaster.sendTransform([to_stamped(*each, stamp_ns) for each in transforms])

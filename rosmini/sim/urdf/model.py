@@ -310,14 +310,6 @@ class Robot:
             found[joint.child] = matrix_product(found[joint.parent], joint.transform(at.get(joint.name, 0.0)))
         return found
 
-    def show(self, **options: Any) -> Any:
-        """Return a picture of the tree of links and joints.
-
-        Options and their defaults:
-            title=None: a caption under the picture, and the first words of its text form
-        """
-        return show("robot", self, **options)
-
     def show3d(self, joints: Mapping[str, float] | None = None, **options: Any) -> Any:
         """Return a view of the robot in three dimensions, with joints at these positions [rad or m] or at rest.
 

@@ -15,7 +15,7 @@ SHOWN = {
     "rosmini.ros.bag:Bag": {"show": "bag"},
     "rosmini.core.graph.observers.console:Console": {"show": "log_console"},
     "rosmini.core.graph:Graph": {"show": "computation_graph"},
-    "rosmini.sim.urdf.model:Robot": {"show": "robot", "show3d": "robot_3d"},
+    "rosmini.sim.urdf.model:Robot": {"show3d": "robot_3d"},
     "rosmini.sim.simulator:Simulator": {"show": "simulation", **DRIVEN},
     "rosmini.sim.recording:Recording": {
         "show": "recording",
@@ -27,7 +27,6 @@ SHOWN = {
     "rosmini.sim.gazebo.client:GazeboClient": {"show": "gazebo", "show3d": "gazebo_3d"},
     "rosmini.sim.gazebo.server:GazeboServer": {**DRIVEN, "show": "gazebo", "show3d": "gazebo_3d"},
     "rosmini.sim.gazebo.snapshot:Snapshot": {"show": "gazebo", "show3d": "gazebo_3d"},
-    "rosmini.sim.robot_state_publisher.node:RobotStatePublisher": {"show": "robot"},
     "rosmini.core.tf:Buffer": {"show": "tf_tree"},
 }
 WIDGETS = {"teleop_pad": TeleopPad}

@@ -29,6 +29,8 @@ from rosmini.viz.replay.canvas_data import scene_data
 from rosmini.viz.replay.encode import MAX_SCANS, replay_data
 from rosmini.viz.replay.packing import ANGLE, LENGTH, TIME, pack, whole
 
+from ...recordings import part
+
 STATIC = Path(style.__file__).parent / "static"
 
 
@@ -174,7 +176,7 @@ def test_commands_that_change_nothing_are_left_out():
 
 def test_odometry_starts_where_the_robot_is_and_a_window_keeps_its_times():
     moved = run(3.0)
-    moved = replace(moved, odom=moved.odom + (5.0, 5.0, 0.0)).window(1.0, 2.0)
+    moved = part(replace(moved, odom=moved.odom + (5.0, 5.0, 0.0)), 1.0, 2.0)
     data = replay_data(moved)
     assert (data["start"], data["duration"]) == (1000, 1000)
     assert track(data["odom"])[0] == pytest.approx(track(data["truth"])[0], abs=1e-3)
@@ -274,7 +276,7 @@ def test_the_page_gets_the_player_the_picture_and_words_for_both(monkeypatch, fo
 
 def test_a_run_of_one_sample_and_one_without_scans_can_be_replayed():
     recording = run()
-    one = recording.window(0.0, 0.0)
+    one = part(recording, 0.0, 0.0)
     data = replay_data(one)
     assert (data["duration"], len(track(data["truth"]))) == (0, 1)
     assert replay(one).text.startswith("Replay of burger in room: 0.00 m in 0.0 s")
