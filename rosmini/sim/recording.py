@@ -175,23 +175,6 @@ class Recording:
         off = self.odom_in_map() - self.truth
         return Drift(np.hypot(off[:, 0], off[:, 1]), normalize_angle(off[:, 2]))
 
-    def velocities(self) -> Floats:
-        """Return the robot's true linear [m/s] and angular [rad/s] velocity at `times`, (n, 2).
-
-        It is assumed to follow an arc between two samples; at a sample, the velocity is the average of those before and
-        after it.
-        """
-        if len(self.times) < 2:
-            return np.zeros((1, 2))
-        steps, turns = np.diff(self.truth[:, :2], axis=0), np.diff(self.truth[:, 2])
-        towards = self.truth[:-1, 2] + turns / 2
-        chords = steps[:, 0] * np.cos(towards) + steps[:, 1] * np.sin(towards)
-        ways = np.column_stack([chords / np.sinc(turns / 2 / np.pi), turns])
-        between = ways / np.diff(self.times)[:, None]
-        padded = np.vstack([between[:1], between, between[-1:]])
-        mean: Floats = (padded[:-1] + padded[1:]) / 2
-        return mean
-
     def pose_at(self, time: float) -> tuple[float, float, float]:
         """Return the robot's true pose at a time, limited to the beginning and end of the run."""
         return _between(self.times, self.truth, time)
@@ -210,16 +193,6 @@ class Recording:
             size=(660.0, 540.0): the largest width and height [CSS px]
         """
         return show("recording", self, **options)
-
-    def plots(self, **options: Any) -> Any:
-        """Plot velocities and the error of odometry over time.
-
-        Options and their defaults:
-            odometry=True: plot the error of odometry beside the velocities
-            title=None: a caption under the picture, and the first words of its text form
-            width=660.0: of the picture [CSS px]
-        """
-        return show("recording_plots", self, **options)
 
     def replay(self, **options: Any) -> Any:
         """Return a player for the run, with play, pause, scrub and speed, and a switch for each layer.

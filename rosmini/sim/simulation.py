@@ -229,11 +229,6 @@ class Simulation(ABC):
         """Return a pad for driving a robot, the first if none is named.
 
         Options and their defaults:
-            topic=None: the topic to publish to, resolved by the simulation's node; None: the robot's command topic
-            name='teleop_pad': the name of the pad's node
-            limits=None: maximum speeds and accelerations; None: those of the robot
-            keys='': the key bindings; '': those of turtlebot3_teleop_key; or 'teleop_twist_keyboard'
-            hold=False: True if a key must be held, like a dead man's switch
             title=None: a caption under the pad, and the first line of its text form
         """
         return show("teleop_pad", self, robot=robot and self._do(lambda: self._entity(robot)), **options)

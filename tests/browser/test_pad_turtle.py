@@ -12,6 +12,7 @@ from rosmini.msgs.turtlesim.msg import Pose
 from rosmini.sim.turtlesim import Frame
 from rosmini.sim.turtlesim.turtle import START, STEP_S, single
 from rosmini.viz.embed import STATIC
+from rosmini.viz.live.loopback import PageServer
 from rosmini.viz.live.page import pad_data
 
 from ..processes import PATIENCE
@@ -149,7 +150,7 @@ def test_a_page_on_loopback_drives_the_node_s_turtle(chromium, watch):
                 graph.run(0.05)
                 page.wait_for_timeout(5)
 
-        with pad.serve() as server:
+        with PageServer(pad.link.widget, title="turtles") as server:
             page.goto(server.url)
             page.locator(".rp-stage").focus()
             page.keyboard.press("ArrowUp")
@@ -178,7 +179,7 @@ def test_what_a_page_says_comes_in_its_order(chromium):
     with Graph() as graph:
         sim = rosrun("turtlesim", "turtlesim_node", graph=graph).instance()
         held, names = [], []
-        with sim.pad().serve() as server:
+        with PageServer(sim.pad().link.widget, title="turtles") as server:
             page.goto(server.url)
             page.locator(".rp-stage").wait_for()
             page.route("**/say", lambda route: held.append(route))  # noqa: PLW0108 (Playwright asks how many it takes)

@@ -36,7 +36,7 @@ def say(*words):
 
 node.subscriber("/move_base_simple/goal", PoseStamped, lambda m: say("goal in", m.header.frame_id))
 node.subscriber("/text", String, lambda m: say("text", m.data))
-node.subscriber("/pad", Twist, lambda m: say("pad", m.linear.x))
+node.subscriber("/cmd_vel", Twist, lambda m: say("pad", m.linear.x))
 node.subscriber("/turtle1/cmd_vel", Twist, lambda m: say("turtle", m.linear.x))
 say("listening")
 graph.run()
@@ -49,7 +49,7 @@ from rosmini.viz.live.loopback import PageServer
 from rosmini.viz.rqt import MessagePublisher
 
 with connect() as graph:
-    for live in (MessagePublisher(graph), TeleopPad(graph, topic="/pad")):
+    for live in (MessagePublisher(graph), TeleopPad(graph)):
         server = PageServer(live.link.widget, title=type(live).__name__)
         print(f"{server.title}: {server.url}", flush=True)
     graph.run()

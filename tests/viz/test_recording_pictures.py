@@ -14,7 +14,7 @@ from rosmini.sim.models import BURGER, model
 from rosmini.sim.recording import Moved, Recording
 from rosmini.sim.worlds import world
 from rosmini.viz import ViewError, style
-from rosmini.viz.recording_pictures import recording_picture, recording_plots
+from rosmini.viz.recording_pictures import recording_picture
 
 from ..recordings import part
 
@@ -71,47 +71,19 @@ def test_the_last_scan_is_drawn_from_where_it_was_taken():
     assert np.abs(np.array(re.findall(r"M(\S+) (\S+?)h0", later.svg), dtype=float) - dots).max() > 5
 
 
-def test_the_plots_say_what_was_commanded_driven_and_wrong():
-    view = recording_plots(run(), title="Over time")
-    off = run().drift().position
-    assert view.text.splitlines() == [
-        "Over time: 10.0 s, 1 command",
-        "commanded: at most 0.15 m/s and 0.20 rad/s",
-        "driven: at most 0.15 m/s and 0.20 rad/s",
-        f"odometry: {off[-1]:.3f} m and 2.3 deg off at the end; at most {off.max():.3f} m and 2.3 deg",
-    ]
-    assert "commanded by 1 message" in view.alt
-    words = [node.text for node in ET.fromstring(view.svg).iter("{http://www.w3.org/2000/svg}text")]
-    assert {"linear velocity [m/s]", "angular velocity [rad/s]", "odometry: position error [m]", "time [s]"} <= set(
-        words
-    )
-    assert {"driven", "commanded"} <= set(words)
-
-
-def test_a_run_that_nobody_commanded_can_be_plotted():
-    view = recording_plots(replace(run(), commands=np.empty((0, 3))))
-    assert "commanded" not in view.text
-    assert style.LIGHT["orange"] not in view.svg
-
-
-def test_a_run_of_a_moment_has_a_picture_but_no_plots():
+def test_a_run_of_a_moment_has_a_picture():
     moment = part(run(), 0.0, 0.0)
     assert "0.00 m in 0.0 s" in recording_picture(moment).text
-    with pytest.raises(ViewError, match="without duration"):
-        recording_plots(moment)
 
 
-def test_a_robot_that_stands_still_can_be_plotted():
+def test_a_robot_that_stands_still_has_a_picture():
     still = replace(run(), truth=np.zeros((301, 3)), odom=np.zeros((301, 3)))
-    assert "driven: at most 0.00 m/s and 0.00 rad/s" in recording_plots(still).text
     assert "odometry: 0.000 m and 0.0 deg off" in recording_picture(still).text
 
 
 def test_what_is_no_recording_is_refused():
     with pytest.raises(ViewError, match=r"not from a SimpleNamespace: call its recording\(\) first"):
         recording_picture(SimpleNamespace(recording=run))
-    with pytest.raises(ViewError, match="not from a list"):
-        recording_plots([])
 
 
 def test_a_scan_that_was_not_recorded_cannot_be_drawn():

@@ -116,11 +116,6 @@ class TurtleSim:
         """Return a pad for driving a turtle, the first if none is named; in a live notebook its window moves.
 
         Options and their defaults:
-            topic=None: the topic to publish to; None: the turtle's command topic
-            name='teleop_pad': the name of the pad's node
-            limits=None: maximum speeds; None: those of turtle_teleop_key
-            keys='': the key bindings; '': those of turtle_teleop_key
-            hold=False: True if a key must be held, like a dead man's switch
             title=None: a caption under the pad, and the first line of its text form
         """
         return show("teleop_pad", self, robot=robot, **options)

@@ -40,7 +40,9 @@ if TYPE_CHECKING:
 
     from rosmini.core.graph.clock import Timer
 
-    from .loopback import PageServer
+
+NAME = "teleop_pad"
+"""Name of a pad's node."""
 
 CONNECT_S = 1.0
 """Time for which a new pad waits for existing subscribers [s], so that its first message is not lost."""
@@ -57,21 +59,12 @@ class TeleopPad(LiveView):
     the pad is silent until the next key. (The original keeps on publishing zeros, which disturbs any other node that
     drives the robot.)
 
-    The keys, buttons, touches and gamepads of a browser also call `press`, `release`, `steer` and `stop`.
+    The keys, buttons, touches and gamepads of a browser also call `press`, `steer` and `stop`.
 
     Args:
         driven: a simulator, stageros or gzserver, to drive and show its robot; turtlesim, to drive its turtle; or a
             graph, to show only the messages.
         robot: name of the robot or turtle; by default the first. A robot without a laser is driven but not shown.
-        topic: the topic to publish on, resolved and remapped as by the simulation's node; by default the one that the
-            robot subscribes to, and on a graph ``cmd_vel``.
-        name: the name of the node.
-        limits: maximum speeds and accelerations; by default those of the simulator's robot, or of a Burger
-            without one.
-        keys: the program whose keys are used: `turtlebot3_teleop_key`, the default for robots, `turtle_teleop_key`, the
-            default for turtles, or `teleop_twist_keyboard`. (The last publishes each message
-            once; the pad sends it ten times a second, as with `_repeat_rate:=10` there.)
-        hold: True if a key must be held, as on a dead man's switch: the robot stops when it is released.
         title: caption under the pad, and first line of its text form.
 
     Raises:
@@ -79,32 +72,20 @@ class TeleopPad(LiveView):
 
     """
 
-    def __init__(
-        self,
-        driven: Simulation | TurtleSim | Graph,
-        *,
-        robot: str = "",
-        topic: str | None = None,
-        name: str = "teleop_pad",
-        limits: Limits | None = None,
-        keys: str = "",
-        hold: bool = False,
-        title: str | None = None,
-    ) -> None:
+    def __init__(self, driven: Simulation | TurtleSim | Graph, *, robot: str = "", title: str | None = None) -> None:
         self.shown_robot: DrivenRobot | None = None
         self.turtle: DrivenTurtle | None = None
         self.chosen = ""
         """Name of the one of `choices` that is driven."""
-        self.hold = hold
-        self._driven, self._limits = driven, limits
-        namespace = "/"
+        self._driven = driven
+        self._limits: Limits | None = None
+        namespace, topic = "/", "cmd_vel"
         if isinstance(driven, Graph):
             self.graph: Graph = driven
         elif isinstance(driven, Simulation | TurtleSim):
             self.graph = driven.node.graph
             chosen = self._set_driven(driven, robot)
-            namespace = chosen.namespace
-            topic = chosen.topic if topic is None else driven.node.resolve(topic)
+            namespace, topic = chosen.namespace, chosen.topic
         else:
             raise TeleopError(
                 f"a pad drives the robot of a simulator, a turtle, or the subscribers of a graph, not a "
@@ -113,15 +94,15 @@ class TeleopPad(LiveView):
             )
         self.title = title
         usual = "turtlebot3_teleop_key" if self.turtle is None else "turtle_teleop_key"
-        self.teleop = Teleop(self._limits_now(), key_map(keys or usual))
+        self.teleop = Teleop(self._limits, key_map(usual))
         self.sent = 0
         """Number of published messages."""
         self.twist_class = message_class("geometry_msgs/Twist")
-        before = self.graph.nodes.get(resolve(name, namespace))
+        before = self.graph.nodes.get(resolve(NAME, namespace))
         if isinstance(before, PadNode):
             before.shutdown("a new pad took its place")
-        self.node = PadNode(name, self.graph, namespace=namespace)
-        self._publisher = self.node.publisher(topic or "cmd_vel", self.twist_class, queue_size=10)
+        self.node = PadNode(NAME, self.graph, namespace=namespace)
+        self._publisher = self.node.publisher(topic, self.twist_class, queue_size=10)
         if isinstance(driven, Graph):
             self.chosen = self.topic
         self._twist = self.twist_class()
@@ -136,11 +117,8 @@ class TeleopPad(LiveView):
         else:
             chosen = DrivenRobot(driven, robot)
             self.shown_robot = chosen if chosen.has_laser else None
-        self.chosen, self._robot_limits = chosen.name, chosen.limits
+        self.chosen, self._limits = chosen.name, chosen.limits
         return chosen
-
-    def _limits_now(self) -> Limits | None:
-        return self._limits or getattr(self, "_robot_limits", None)
 
     def _wait_for_subscribers(self) -> None:
         if self.topic in dict(self.node.master.ask("getSystemState")[1]):
@@ -181,11 +159,6 @@ class TeleopPad(LiveView):
     def stop(self) -> None:
         """Stop at once, like the key `s`. Raises the same errors as `press`."""
         self.press("space")
-
-    def release(self) -> None:
-        """Release all keys: with `hold` the robot stops. Raises the same errors as `press`."""
-        if self.hold and not self.teleop.at_rest:
-            self.stop()
 
     def steer(self, linear: float, angular: float) -> None:
         """Set the target velocities [m/s, rad/s], within the limits, like a gamepad. Raises as `press` does."""
@@ -232,7 +205,7 @@ class TeleopPad(LiveView):
                 raise TeleopError(f"no node subscribes to {name!r}; the pad can drive {', '.join(self.choices)}")
             self._rest()
             topic = self.chosen = name
-        self.teleop = Teleop(self._limits_now(), self.teleop.keys)
+        self.teleop = Teleop(self._limits, self.teleop.keys)
         if topic != self.topic:
             self._publisher.unregister()
             self._publisher = self.node.publisher(topic, self.twist_class, queue_size=10)
@@ -350,16 +323,6 @@ class TeleopPad(LiveView):
         from .page import static_html
 
         return static_html(self, caption=self.title)
-
-    def serve(self, port: int = 0) -> PageServer:
-        """Serve the live pad as a page on loopback, for a terminal program that drives the graph.
-
-        In `with pad.serve() as page:`, print `page.url` and let the graph run, in wall time if a person presses keys;
-        the page closes at the block's end. Raises `TeleopError` without anywidget, `OSError` if the port is in use.
-        """
-        from .loopback import PageServer
-
-        return PageServer(self.link.widget, title=self.title or f"Drive on {self.topic}", port=port)
 
     def _new_link(self) -> Any:
         from .live import Link

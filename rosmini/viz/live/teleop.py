@@ -7,7 +7,7 @@ speed that other keys change. `rosmini.viz.live.key_maps` lists the keys.
 
 The slopes and the cycle are those of `turtlebot3_teleop/nodes/turtlebot3_teleop_key` in
 https://github.com/ROBOTIS-GIT/turtlebot3, branch noetic. rosmini adds rounding to a millionth, without which six steps
-of 0.01 would give 0.060000000000000005, and ramps (`Limits.linear_acceleration`).
+of 0.01 would give 0.060000000000000005.
 """
 
 from __future__ import annotations
@@ -33,19 +33,15 @@ __all__ = ["GRAIN", "PERIOD", "SLOPE", "KeyMap", "Limits", "Teleop", "TeleopErro
 
 @dataclass(frozen=True)
 class Limits:
-    """Maximum speeds and accelerations of a robot; by default those of a TurtleBot3 Burger.
+    """Maximum speeds of a robot; by default those of a TurtleBot3 Burger.
 
-    Raises `TeleopError` if a value is not positive; accelerations may be infinite.
+    Raises `TeleopError` if a value is not positive.
     """
 
     linear: float = _LINEAR
     """Linear speed [m/s]."""
     angular: float = _ANGULAR
     """Angular speed [rad/s]."""
-    linear_acceleration: float = math.inf
-    """Linear acceleration [m/s²]."""
-    angular_acceleration: float = math.inf
-    """Angular acceleration [rad/s²]."""
 
     def __post_init__(self) -> None:
         for name, value in (("linear", self.linear), ("angular", self.angular)):
@@ -53,9 +49,6 @@ class Limits:
                 raise TeleopError(
                     f"the {name} limit of a pad must be a positive number, not {value!r}; Burger: 0.22 m/s, 2.84 rad/s"
                 )
-        for name, value in (("linear", self.linear_acceleration), ("angular", self.angular_acceleration)):
-            if not value > 0:
-                raise TeleopError(f"the {name} acceleration of a pad must be positive or math.inf, not {value!r}")
 
 
 class Teleop:
@@ -132,7 +125,7 @@ class Teleop:
 
     def cycle(self) -> tuple[float, float]:
         """Move the command towards the target, and return it."""
-        slopes = slopes_of(self.keys, self.limits)
+        slopes = slopes_of(self.keys)
         self.command = (
             _approach(self.command[0], self.target[0], slopes[0]),
             _approach(self.command[1], self.target[1], slopes[1]),
@@ -146,16 +139,15 @@ class Teleop:
         self.aside = _rounded(left * linear), _rounded(up * linear)
 
 
-def slopes_of(keys: KeyMap, limits: Limits) -> tuple[float, float]:
+def slopes_of(keys: KeyMap) -> tuple[float, float]:
     """Return the maximum change of the command per cycle: linear [m/s], angular [rad/s]."""
-    linear, angular = (SLOPE * keys.linear, SLOPE * keys.angular) if keys.adds else (math.inf, math.inf)
-    return min(linear, PERIOD * limits.linear_acceleration), min(angular, PERIOD * limits.angular_acceleration)
+    return (SLOPE * keys.linear, SLOPE * keys.angular) if keys.adds else (math.inf, math.inf)
 
 
 def table(limits: Limits, keys: KeyMap | None = None) -> dict[str, Any]:
     """Return all numbers of a pad for the equivalent script in the browser; None means unlimited."""
     keys = keys or key_map()
-    slopes = [slope if math.isfinite(slope) else None for slope in slopes_of(keys, limits)]
+    slopes = [slope if math.isfinite(slope) else None for slope in slopes_of(keys)]
     return {
         "name": keys.name,
         "linear": {"step": keys.linear, "max": limits.linear, "slope": slopes[0]},

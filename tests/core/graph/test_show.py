@@ -17,12 +17,7 @@ SHOWN = {
     "rosmini.core.graph:Graph": {"show": "computation_graph"},
     "rosmini.sim.urdf.model:Robot": {"show3d": "robot_3d"},
     "rosmini.sim.simulator:Simulator": {"show": "simulation", **DRIVEN},
-    "rosmini.sim.recording:Recording": {
-        "show": "recording",
-        "plots": "recording_plots",
-        "replay": "replay",
-        "replay3d": "replay_3d",
-    },
+    "rosmini.sim.recording:Recording": {"show": "recording", "replay": "replay", "replay3d": "replay_3d"},
     "rosmini.sim.stage.node:Stageros": {"show": "simulation", **DRIVEN},
     "rosmini.sim.gazebo.client:GazeboClient": {"show": "gazebo", "show3d": "gazebo_3d"},
     "rosmini.sim.gazebo.server:GazeboServer": {**DRIVEN, "show": "gazebo", "show3d": "gazebo_3d"},

@@ -47,7 +47,8 @@ def test_a_key_is_one_message_which_the_turtle_follows_for_a_second(sim, graph, 
 
 def test_several_turtles_and_the_keys_of_other_programs(sim, graph):
     sim.spawn(2.0, 2.0, math.pi / 2)
-    pad = TeleopPad(sim, robot="turtle2", keys="teleop_twist_keyboard")
+    pad = TeleopPad(sim, robot="turtle2")
+    pad.use("teleop_twist_keyboard")
     assert pad.choices == ("turtle1", "turtle2")
     pad.press("i")
     graph.run(2.0)  # it goes on, since the message is sent again
@@ -88,7 +89,8 @@ def test_reset_is_the_window_s_service(sim, graph):
 
 
 def test_a_border_blocks(sim, graph):
-    pad = sim.pad(keys="teleop_twist_keyboard")
+    pad = sim.pad()
+    pad.use("teleop_twist_keyboard")
     pad.press("i")
     graph.run(2.0)
     assert not pad.turtle.blocked

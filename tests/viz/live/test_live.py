@@ -12,6 +12,7 @@ from rosmini.core.errors import RosminiError
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.sim.simulator import Simulator
 from rosmini.viz.live.live import Link
+from rosmini.viz.live.loopback import PageServer
 from rosmini.viz.live.pad import TeleopPad
 from rosmini.viz.live.teleop import TeleopError
 
@@ -73,7 +74,7 @@ def test_a_graph_that_a_program_drives_needs_no_event_loop(pad, page, graph):
 
 
 def test_a_pad_is_served_as_a_page_on_loopback(pad):
-    with pad.serve() as server, urlopen(server.url) as answer:
+    with PageServer(pad.link.widget, title="Drive on /cmd_vel") as server, urlopen(server.url) as answer:
         assert "<title>Drive on /cmd_vel</title>" in answer.read().decode()
 
 

@@ -5,7 +5,7 @@ import pytest
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.sim.simulator import Simulator
 from rosmini.viz.live.pad import TeleopPad
-from rosmini.viz.live.teleop import Limits, TeleopError
+from rosmini.viz.live.teleop import TeleopError
 
 
 def test_a_key_publishes_at_once_and_then_every_tenth_of_a_second(graph, heard):
@@ -163,8 +163,9 @@ def test_on_a_graph_the_topics_that_are_heard_can_be_chosen(graph):
         graph.node(name).subscriber(
             f"/{name}/cmd_vel", Twist, lambda twist, name=name: heard.append((name, twist.linear.x))
         )
-    pad = TeleopPad(graph, topic="a/cmd_vel")
-    assert pad.choices == ("/a/cmd_vel", "/b/cmd_vel")
+    pad = TeleopPad(graph)
+    assert pad.choices == ("/a/cmd_vel", "/b/cmd_vel", "/cmd_vel")
+    pad.choose("/a/cmd_vel")
     pad.press("w")
     pad.choose("/b/cmd_vel")
     pad.press("w")
@@ -184,7 +185,8 @@ def test_who_else_drives_is_known(graph):
 
 
 def test_the_keys_of_another_program(graph, heard):
-    pad = TeleopPad(graph, keys="teleop_twist_keyboard", limits=Limits(2.0, 2.0))
+    pad = TeleopPad(graph)
+    pad.use("teleop_twist_keyboard")
     pad.press("u")
     graph.run(0.15)
     assert heard == [(0.0, 0.5, 1.0), (0.1, 0.5, 1.0)]
@@ -197,16 +199,3 @@ def test_the_keys_of_another_program(graph, heard):
     assert (pad.keys, pad.twist.linear.x) == ("turtlebot3_teleop_key", 0.005)
     with pytest.raises(TeleopError, match="no program 'rviz' with keys"):
         pad.use("rviz")
-
-
-def test_a_dead_mans_switch_stops_when_the_key_is_released(graph, heard):
-    pad = TeleopPad(graph, hold=True)
-    pad.press("w", times=4)
-    pad.release()
-    pad.release()  # at rest already
-    graph.run(0.3)
-    assert [v for _, v, _ in heard] == [0.005, 0.01, 0.015, 0.02, 0.0]
-    pad.hold = False
-    pad.press("w")
-    pad.release()
-    assert not pad.teleop.at_rest
