@@ -5,10 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from rosmini.core.geometry.poses import arc
 from rosmini.sim.models import BURGER
 from rosmini.sim.recording import Recording, RecordingError
 from rosmini.sim.world import World
@@ -48,12 +45,6 @@ def test_drift_is_relative_to_the_start_in_whichever_frame_odometry_began():
     )
     np.testing.assert_allclose(run.drift().position, [0, 0, 0.1], atol=1e-12)
     np.testing.assert_allclose(run.drift().heading, [0, 0, 0.2], atol=1e-12)
-
-
-@given(st.floats(-0.3, 0.3), st.floats(-3, 3))
-def test_velocities_on_an_arc_are_those_that_were_driven(v, w):
-    truth = arc((1.0, 2.0, 3.0), v, w, np.arange(6) * 0.1)
-    np.testing.assert_allclose(recording(truth).velocities(), [(v, w)] * 6, atol=1e-9)
 
 
 def test_the_pose_at_a_time_lies_between_the_samples():

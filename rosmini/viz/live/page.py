@@ -40,6 +40,7 @@ def pad_data(pad: TeleopPad) -> dict[str, Any]:
         "topic": pad.topic,
         "maps": [table(pad.teleop.limits, key_map(name)) for name in _maps(pad)],
         "keys": pad.teleop.keys.name,
+        "hold": False,
         "step": STEP,
         "scene": None,
         "pose": None,

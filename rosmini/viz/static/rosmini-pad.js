@@ -7,7 +7,7 @@
      new Page(host, data, driver)   a pad before another driver: rosmini-pad-kernel.js has one
 
 
-   `data` is what `rosmini.viz.live.page` makes: {maps, keys, topic, title, scene, pose, step, scan_rate}; without a robot
+   `data` is what `rosmini.viz.live.page` makes: {maps, keys, hold, topic, title, scene, pose, step, scan_rate}; without a robot
    `scene` and `pose` are null, and only the messages are shown.
 
    A driver is what stands behind the page: press(key), steer(linear, angular), use(map), choose(name), leave(), reset(), close(), and `state`, which the page draws whenever
@@ -159,6 +159,7 @@
         return element("label", {}, element("span", { class: "rp-name" }, label), select);
       };
       this.hold = element("input", { type: "checkbox" });
+      this.hold.checked = data.hold;
       this.hold.addEventListener("change", () => this.stage.focus({ preventScroll: true }));
       const box = element("div", { class: "rp-options" });
       this.drive = choice("Drive", data.choices ?? [], data.chosen, (name) => this.driver.choose(name));

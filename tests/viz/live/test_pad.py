@@ -189,9 +189,9 @@ def test_the_keys_of_another_program(graph, heard):
     pad.use("teleop_twist_keyboard")
     pad.press("u")
     graph.run(0.15)
-    assert heard == [(0.0, 0.5, 1.0), (0.1, 0.5, 1.0)]
+    assert heard == [(0.0, 0.22, 1.0), (0.1, 0.22, 1.0)]
     pad.press("J")
-    assert (pad.twist.linear.x, pad.twist.linear.y) == (0.0, 0.5)
+    assert (pad.twist.linear.x, pad.twist.linear.y) == (0.0, 0.22)
     pad.press("5")  # any other key
     assert pad.twist == Twist()
     pad.use("turtlebot3_teleop_key")
