@@ -10,9 +10,9 @@ import math
 
 from rosmini.sim.shapes import Sphere
 from rosmini.sim.world import Obstacle, World
-from .walls import wall
 
 from .furniture import bed, block, chair, corner, desk, facing, post, round_table, sofa, table
+from .walls import wall
 
 STARTS = (
     (-3.0, 1.0, 0.0),  # where turtlebot3_house.launch puts a robot

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from rosmini.core.geometry.poses import Pose
 from rosmini.sim.world import Obstacle, World
+
 from .walls import wall
 
 COLUMNS, ROWS = 10, 8

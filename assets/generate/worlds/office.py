@@ -10,9 +10,9 @@ import math
 from rosmini.sim.motion import Door, Walk
 from rosmini.sim.shapes import Box, Cylinder
 from rosmini.sim.world import Obstacle, World
-from .walls import wall
 
 from .furniture import block, chair, corner, desk, facing, post, round_table, sofa, table
+from .walls import wall
 
 STARTS = (
     (0.0, 0.0, 0.0),
