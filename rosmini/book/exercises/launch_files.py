@@ -118,11 +118,13 @@ def _launched(answer: Any, packages: PackageIndex, environ: Mapping[str, str], *
     """Start the text of a launch file; return the house, and how it was started."""
     words = " ".join(f"{name}:={value}" for name, value in args.items())
     said = f"Started with {words}" if args else "Started without arguments"
-    path = str(packages.path("notebook") / "launch" / "answer.launch")
+    package = packages.path("notebook")
+    path = str(package / "launch" / "answer.launch")
     try:
         plan = read(text=answer, path=path, args=args, packages=packages, environ=environ)
     except RosminiError as error:
-        raise Wrong(f"{said}, roslaunch refuses it: {str(error).replace(path, 'answer.launch')}") from error
+        why = str(error).replace(f"{package.parent}{os.sep}", "")  # a temporary folder
+        raise Wrong(f"{said}, roslaunch refuses it: {why}") from error
     unknown = [line for line in plan.warnings if "no launch file has an arg" in line]
     expect(not unknown, f"{said}: {'; '.join(unknown)}.", 'declare it: <arg name="..." default="..."/>')
     return House(plan, packages, said), said
