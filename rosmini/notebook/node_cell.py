@@ -167,7 +167,7 @@ def _start_script(session: Session, path: Path, title: str, given: Words, text: 
         title,
         make,
         may_print=_PRINTS.search(source) is not None,
-        is_readers=path.is_relative_to(session.package.workspace),
+        is_readers=path.is_relative_to(session.package.workspace) and not given.is_quiet,
     )
 
 

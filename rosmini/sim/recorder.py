@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, Protocol
 
@@ -17,7 +18,7 @@ from rosmini.msgs import message_class
 
 from .markers import first_poses, obstacles_of
 from .models import LidarModel, RobotModel
-from .recording import Moved, Recording, RecordingError, since
+from .recording import Moved, Recording, RecordingError, Subject, since
 from .shapes import simple_parts
 from .simulation import Simulation
 from .world import Obstacle, World
@@ -29,6 +30,8 @@ RECORDED = "rosmini.recorded_types"
 """Group of the entry points that name the types of messages that a replay shows."""
 CHECK_PERIOD = 0.5
 """Interval between checks for new topics [s]."""
+STATES_PERIOD = 1 / 30
+"""Shortest interval between two recorded `gazebo_msgs/ModelStates`, which Gazebo sends in each step [s]."""
 
 
 class Simulated(Protocol):
@@ -45,13 +48,14 @@ class Recorder:
     """Records `scan`, `odom`, `base_pose_ground_truth` and `cmd_vel` of one robot or several.
 
     It is an ordinary node and uses only messages. Times are those of their headers; a `geometry_msgs/Twist` has no
-    header, so a command's time is that of its arrival. If the clock goes back (a simulation is reset, a bag is played
-    in a loop), a new run begins.
+    header, so a command's time is that of its arrival. In Gazebo, where no robot publishes `base_pose_ground_truth`,
+    the true poses are those on `/gazebo/model_states`, and objects that are spawned later are not recorded. If the
+    clock goes back (a simulation is reset, a bag is played in a loop), a new run begins.
 
     Args:
         graph: the robot's graph; the default graph if not given.
-        simulator: an object with `world` and `model`; or give these two; or neither, for the only simulation in
-            the graph. If it has several robots, all present ones are recorded.
+        simulator: an object with `world` and `model`, or Gazebo's server; or give these two; or neither, for the only
+            simulation in the graph. If it has several robots, all present ones are recorded.
         world: the robot's world.
         model: the robot's model.
         namespace: the namespace of the robot's topics and of this node.
@@ -86,7 +90,17 @@ class Recorder:
             simulator = _only_simulation(graph)
         robots: dict[str, Any] = {}
         first = ""
-        if simulator is not None:
+        axles: dict[str, Pose] = {}
+        if hasattr(simulator, "subject"):
+            subject: Subject = simulator.subject()
+            robots = dict(subject.robots)
+            if not robots:
+                raise RecordingError("there is no robot in Gazebo's world: spawn one, and record then")
+            first, *_ = robots
+            world, model = world or subject.world, model or robots[first].model
+            things = things or subject.states
+            axles = {name: robot.axle for name, robot in robots.items()}
+        elif simulator is not None:
             world, model = world or simulator.world, model or getattr(simulator, "model", None)
             robots, first = dict(getattr(simulator, "robots", {})), getattr(simulator, "name", "")
             first = first if first in robots or not robots else next(iter(robots))
@@ -95,13 +109,13 @@ class Recorder:
         if world is None or model is None:
             raise RecordingError(
                 "a recorder has to know the world and the robot: Recorder(graph, simulator), or Recorder(graph, "
-                "world=..., model=...); of Gazebo it learns no model"
+                "world=..., model=...)"
             )
         self.world = world
         self.model = model
         self.node = graph.node(name, namespace=namespace or "/")
         self.scan_topic = scan
-        self._things = None if things is None else _MovingObstacles(self, things)
+        self._things = None if things is None else _MovingObstacles(self, things, axles)
         self._layers = _Layers(self, things) if layers else None
         self._runs: dict[str, _Run] = {}
         own = robots.pop(first, None)
@@ -193,6 +207,10 @@ class Recorder:
         self.node.logwarn(f"the time on {self.node.resolve(topic)} went back by {by:.3f} s: a new recording begins")
         self.clear()
 
+    def add_truth(self, name: str, stamp: int, pose: Pose) -> None:
+        """Record the true pose of a robot at a time [ns]."""
+        self._runs[name].add(TRUTH, stamp, pose)
+
     def stamp(self, header: Any) -> int:
         """Return a header's time [ns], or the current time if the sender left it out."""
         return header.stamp.to_nsec() or self.node.clock.now_ns()
@@ -232,19 +250,18 @@ class _Run:
         return f"{self._namespace.rstrip('/')}/{name}" if self._namespace else name
 
     def _pose(self, message: Any, topic: str) -> None:
-        position, q = message.pose.pose.position, message.pose.pose.orientation
-        yaw = yaw_from_quaternion(q.x, q.y, q.z, q.w)
-        self._add(topic, self._recorder.stamp(message.header), (position.x, position.y, yaw))
+        self.add(topic, self._recorder.stamp(message.header), _flat(message.pose.pose))
 
     def _scan(self, message: Any) -> None:
-        self._add(SCAN, self._recorder.stamp(message.header), message)
+        self.add(SCAN, self._recorder.stamp(message.header), message)
 
     def _command(self, message: Any) -> None:
         velocities = (message.linear.x, message.angular.z)
         if all(math.isfinite(v) for v in velocities):  # commands that are not finite drive no robot
-            self._add(COMMANDS, self._recorder.node.clock.now_ns(), velocities)
+            self.add(COMMANDS, self._recorder.node.clock.now_ns(), velocities)
 
-    def _add(self, topic: str, stamp: int, row: Any) -> None:
+    def add(self, topic: str, stamp: int, row: Any) -> None:
+        """Add what a topic said at a time [ns]."""
         back = self.tracks[topic].behind(stamp)
         if back:
             self._recorder.clock_went_back(self.topic(topic), back)
@@ -319,8 +336,12 @@ class _Layers:
 class _MovingObstacles:
     """The data from the topic with the poses of moving obstacles."""
 
-    def __init__(self, recorder: Recorder, topic: str) -> None:
+    def __init__(self, recorder: Recorder, topic: str, axles: Mapping[str, Pose]) -> None:
         self._recorder, self._topic = recorder, topic
+        self._axles = axles
+        """The robots whose true poses are on the same topic."""
+        self._last = -math.inf
+        """Time of the last message that was used [s]."""
         self._tracks: dict[str, _Track] = {}
         self._appearances: dict[str, Obstacle] = {}
         if topic.rpartition("/")[2] == "model_states":
@@ -332,6 +353,7 @@ class _MovingObstacles:
     def clear(self) -> None:
         """Discard the data."""
         self._tracks.clear()
+        self._last = -math.inf
 
     def _markers(self, message: Any) -> None:
         poses = first_poses(message)
@@ -349,11 +371,15 @@ class _MovingObstacles:
 
     def _states(self, message: Any) -> None:
         stamp = self._recorder.node.clock.now_ns()
+        if 0 <= stamp / 1e9 - self._last < STATES_PERIOD:
+            return
+        self._last = stamp / 1e9
         for name, pose in zip(message.name, message.pose, strict=True):
-            if name in self._known:
-                q = pose.orientation
+            if name in self._axles:
+                self._recorder.add_truth(name, stamp, compose(_flat(pose), self._axles[name]))
+            elif name in self._known:
                 self._appearances[name] = self._known[name]
-                self._add(name, stamp, (pose.position.x, pose.position.y, yaw_from_quaternion(q.x, q.y, q.z, q.w)))
+                self._add(name, stamp, _flat(pose))
 
     def _add(self, name: str, stamp: int, pose: Pose) -> None:
         track = self._tracks.setdefault(name, _Track())
@@ -377,6 +403,12 @@ class _MovingObstacles:
             keep = turning_points(inside.poses)
             found.append(Moved(inside.at(first), inside.times[keep], inside.poses[keep]))
         return tuple(found)
+
+
+def _flat(pose: Any) -> Pose:
+    """Return x, y and heading of a `geometry_msgs/Pose`."""
+    q = pose.orientation
+    return (pose.position.x, pose.position.y, yaw_from_quaternion(q.x, q.y, q.z, q.w))
 
 
 def turning_points(poses: Floats) -> NDArray[np.intp]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -15,9 +16,30 @@ from rosmini.core.geometry.products import norms
 from rosmini.core.graph.show import show
 
 from .models import RobotModel
-from .world import Obstacle, World
+from .world import Obstacle, Pose, World
 
 Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SubjectRobot:
+    """A robot in a Gazebo world."""
+
+    model: RobotModel
+    namespace: str
+    axle: Pose
+    """The middle of its axle in the frame of its model."""
+
+
+@dataclass(frozen=True)
+class Subject:
+    """What a recorder needs to know of a Gazebo world, whose topics do not say it."""
+
+    world: World
+    """Everything that is no robot; movable objects have their current poses."""
+    robots: Mapping[str, SubjectRobot]
+    states: str
+    """The topic with the poses of all models: `gazebo_msgs/ModelStates`."""
 
 
 class RecordingError(RosminiError, ValueError):

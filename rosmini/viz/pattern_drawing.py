@@ -1,10 +1,13 @@
-"""A drawing of the publish/subscribe pattern: publishers, an event service and subscribers."""
+"""Drawings of concepts, boxes and arrows at fixed places: the publish/subscribe pattern."""
 
 from __future__ import annotations
+
+from collections.abc import Iterable
 
 from rosmini.viz import style
 from rosmini.viz.graph_drawing import arrow, box, drawing, rule, text
 from rosmini.viz.layout import Layout, Rect, Route
+from rosmini.viz.layout.model import Point
 from rosmini.viz.svg import element
 from rosmini.viz.view import Picture
 
@@ -22,27 +25,33 @@ ALT = (
 
 def publish_subscribe() -> Picture:
     """Draw the pattern (Eugster and others, 2003)."""
-    parts = [_box(rect, "Publisher", "node") for rect in PUBLISHERS]
-    parts += [_box(rect, "Subscriber", "node") for rect in SUBSCRIBERS]
-    parts += [_box(SERVICE, "Event service", "topic", 28.0), _box(STORE, "subscriptions", "group")]
+    parts = [named_box(rect, "Publisher", "node") for rect in PUBLISHERS]
+    parts += [named_box(rect, "Subscriber", "node") for rect in SUBSCRIBERS]
+    parts += [named_box(SERVICE, "Event service", "topic", 28.0), named_box(STORE, "subscriptions", "group")]
     for rect in PUBLISHERS:
         parts.append(_call(rect.right, SERVICE.x, rect.centre[1], "publish()"))
     for rect in SUBSCRIBERS:
         y = rect.centre[1]
         parts.append(_call(SERVICE.right, rect.x, y - 13, "notify()"))
         parts.append(_call(rect.x, SERVICE.right, y + 13, "subscribe()", below=True))
+    title = "The publish/subscribe pattern"
+    layout = Layout(SUBSCRIBERS[0].right, SERVICE.height)
+    words = "publish() to an event service, subscribe() to it, notify() from it"
+    return diagram(parts, layout, title, words, ALT)
+
+
+def diagram(parts: Iterable[str], layout: Layout, title: str, words: str, alt: str) -> Picture:
+    """Return the drawing of boxes and arrows; `words` is its text form after the title."""
     css = "".join(
         rule(f".ps-{kind} rect", fill=f"{kind}-fill", stroke=f"{kind}-line") for kind in ("node", "topic", "group")
     )
     css += rule(".ps-call path:first-of-type", stroke="line") + rule(".ps-call path:last-of-type", fill="line")
     css += rule(".ps-call text", fill="label") + rule(".ps-name", fill="ink")
-    layout = Layout(SUBSCRIBERS[0].right, SERVICE.height)
-    title = "The publish/subscribe pattern"
-    svg = drawing(parts, layout, title=title, alt=ALT, css=css, colours=COLOURS)
-    return Picture(svg, text=f"{title}: publish() to an event service, subscribe() to it, notify() from it", alt=ALT)
+    svg = drawing(parts, layout, title=title, alt=alt, css=css, colours=COLOURS)
+    return Picture(svg, text=f"{title}: {words}", alt=alt)
 
 
-def _box(rect: Rect, words: str, kind: str, down: float | None = None) -> str:
+def named_box(rect: Rect, words: str, kind: str, down: float | None = None) -> str:
     """Return a box with its name in the middle, or `down` from its top."""
     x, y = rect.centre
     name = text(words, x, y + 4.5 if down is None else rect.y + down, kind="ps-name")
@@ -51,7 +60,13 @@ def _box(rect: Rect, words: str, kind: str, down: float | None = None) -> str:
 
 def _call(start: float, end: float, y: float, words: str, *, below: bool = False) -> str:
     """Return a horizontal arrow with a label above or below."""
-    third = (end - start) / 3
-    route = Route(((start, y), (start + third, y), (end - third, y), (end, y)))
-    label = text(words, (start + end) / 2, y + (15 if below else -6), size=style.LABEL_SIZE, colour="label")
+    return straight((start, y), (end, y), words, ((start + end) / 2, y + (15 if below else -6)))
+
+
+def straight(start: Point, end: Point, words: str = "", place: Point = (0.0, 0.0), anchor: str = "middle") -> str:
+    """Return a straight arrow with a label at `place`."""
+    (x, y), (x2, y2) = start, end
+    dx, dy = (x2 - x) / 3, (y2 - y) / 3
+    route = Route(((x, y), (x + dx, y + dy), (x2 - dx, y2 - dy), (x2, y2)))
+    label = text(words, *place, size=style.LABEL_SIZE, colour="label", anchor=anchor) if words else ""
     return element("g", arrow(route) + label, class_="ps-call")

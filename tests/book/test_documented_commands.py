@@ -118,14 +118,6 @@ cp -r /opt/ros/noetic/share/stage_ros/world/include .
 cp /opt/ros/noetic/share/rosmini_sim/maps/house* .
 """
 
-CRATE = """%%terminal
-cat > crate.sdf << 'EOF'
-<sdf version="1.6"><model name="crate"><link name="body"><collision name="shape"><geometry>
-<box><size>0.4 0.4 0.4</size></box>
-</geometry></collision></link></model></sdf>
-EOF
-"""
-
 FLAG = """%%terminal
 cp /opt/ros/noetic/share/turtlebot3_description/urdf/turtlebot3_burger.urdf.xacro flag.urdf.xacro
 """
@@ -137,7 +129,6 @@ GRAPHS: dict[str, tuple[str, ...]] = {
     "dynamic_reconfigure": (DRIVER,),
     "bags": (ROBOT, RECORDED),
     "simulation_and_stage": (FILES,),
-    "gazebo": (CRATE, "%roslaunch gazebo_ros empty_world.launch gui:=false"),
     "frames": (ROBOT, SHELF),
     "maps": (FILES,),
     "odometry": ("%rosrun rosmini_sim simulator _board:=true",),
@@ -150,7 +141,6 @@ INSTALLS = "installs uv; CI runs it"
 ROBOTS_OWN = "a program of the robot itself, or of ROS packages that rosmini does not have"
 READERS_OWN = "a package or script that the reader wrote in the chapter"
 BY_HAND = "a page or a prompt that waits for the reader; tested in tests/viz/live and tests/browser"
-PROCESSES = "needs nodes in processes of their own; tested in tests/tools"
 
 SKIPPED = {
     "pip install uv && uv run rosmini book": INSTALLS,
@@ -172,8 +162,6 @@ SKIPPED = {
     },
     "check_urdf flag.urdf": ROBOTS_OWN,
     "rosrun joint_state_publisher_gui joint_state_publisher_gui": ROBOTS_OWN,
-    "gz topic -l": PROCESSES,
-    "gz world -m 500": PROCESSES,
     "python3 errand.py": READERS_OWN,
     "python3 patrol.py": READERS_OWN,
     "roslaunch twist_mux twist_mux.launch": ROBOTS_OWN,

@@ -139,6 +139,7 @@ def test_a_node_that_ends_at_once_is_told(notebook):
     assert written == ("short.py has ended, and its node /short with it; rospy.spin() keeps a node alive.\n")
     assert notebook.ok("%%node hello.py\nprint('hello')") == "hello\n"
     assert "has ended" in notebook.ok("%rosrun notebook short.py")
+    assert "has ended" not in notebook.ok("%rosrun --quiet notebook short.py")
     assert "has ended" not in notebook.ok("%rosrun dynamic_reconfigure dynparam list")
 
 

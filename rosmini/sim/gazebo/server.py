@@ -25,6 +25,7 @@ from rosmini.core.graph import Node
 from rosmini.core.packages import SCHEME, PackageIndex, assets_dir
 from rosmini.sim import sdf, worlds
 from rosmini.sim.devices import ClockDevice
+from rosmini.sim.recording import Subject, SubjectRobot
 from rosmini.sim.sdf import SdfModel, SdfWorld
 from rosmini.sim.sdf.resources import RESOURCE_PATH
 from rosmini.sim.simulation import Simulation
@@ -197,6 +198,22 @@ class GazeboServer(Pictured, Simulation):
     def snapshot(self) -> Snapshot:
         """Return the world as it is now."""
         return self._do(lambda: Snapshot.of(self.world))
+
+    def subject(self) -> Subject:
+        """Return what a recorder needs to know of the world as it is now."""
+
+        def look() -> Subject:
+            seen = self.snapshot()
+            fixed = tuple(each for each in seen.world(robots=False).obstacles if each.name not in movable)
+            world = replace(seen.flat, name=seen.name, title=seen.title, obstacles=(*fixed, *movable.values()))
+            robots = {
+                each.name: SubjectRobot(each.model, self.world.model(each.name).namespace, self.axle(each.name))
+                for each in seen.robots
+            }
+            return Subject(world, robots, self.node.resolve("~model_states"))
+
+        movable = {each.name: each for each in self.engine.obstacles()}
+        return self._do(look)
 
     def _finish(self) -> None:
         self.node.shutdown("so many steps as --iters said have passed")

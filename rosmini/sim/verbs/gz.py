@@ -39,7 +39,6 @@ TOOL = Tool(
     usage_status=255,
     elsewhere=("camera", "debug", "joint", "log", "marker", "physics"),
     example="gazebo_ros/gzserver worlds/empty.world",
-    is_magic=False,
     group="Run and look",
     purpose="looking at a Gazebo server and changing its world",
     overview=Overview(closing="Type {tool} <command> -h for more detailed usage", status=0, unknown_status=255),

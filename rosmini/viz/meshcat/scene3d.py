@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -262,9 +262,10 @@ class Scene3D:
     def add_robot(self, model: RobotModel, pose: Pose, name: str = ROBOT) -> None:
         """Add a robot with its frame base_footprint at `pose`; its wheels are nodes below it."""
         self.place(name, planar(pose))
-        if model.name in URDF_MODELS:
-            self._add_described(model, name)
-        elif model.name == "burger":
+        kind = model.name.removeprefix("turtlebot3_")  # the names in Gazebo have it
+        if kind in URDF_MODELS:
+            self._add_described(replace(model, name=kind), name)
+        elif kind == "burger":
             for part in burger.body(model, name):
                 self.add(part)
             for side, outwards in SIDES:

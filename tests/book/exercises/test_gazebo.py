@@ -12,7 +12,7 @@ from rosmini.sim.verbs.gz import TOOL
 
 def test_the_verbs_of_gz_exist_as_they_are_written(prose):
     shown = re.findall(r"(?:`|\$ )(gz \w+ [^`\n]*)", prose)
-    assert len(shown) > 10
+    assert len(shown) > 7
     for line in shown:
         _, verb, *words = line.split()
         if words[-1].startswith("-") and verb == "sdf":
@@ -21,13 +21,13 @@ def test_the_verbs_of_gz_exist_as_they_are_written(prose):
 
 
 def test_the_services_of_the_boxes_exist(prose, code):
-    named = set(re.findall(r"rosservice call /gazebo/(\w+)", prose)) | set(re.findall(r'call\("(\w+)"', "".join(code)))
+    named = set(re.findall(r"/gazebo/(?!model_states)([a-z_]+_[a-z]+)\b", prose + "".join(code)))
     from rosmini import Graph, rosrun
 
     with Graph() as graph:
         rosrun("gazebo_ros", "gzserver", graph=graph).instance()
         there = {name.rsplit("/", 1)[-1] for name, _ in graph.master.getSystemState("/x")[2][2]}
-    assert len(named) > 8
+    assert len(named) > 4
     assert named <= there
 
 
@@ -41,5 +41,5 @@ def test_the_arguments_of_the_launch_files_exist(prose):
 
 def test_plugins_that_the_text_names_exist(prose):
     for library in re.findall(r"`(lib\w+\.so)`", prose):
-        if library not in ("libgazebo_ros_api_plugin.so", "libleash.so"):
+        if library != "libgazebo_ros_api_plugin.so":
             assert plugin_class(library)

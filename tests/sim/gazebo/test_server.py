@@ -5,6 +5,8 @@ import pytest
 from rosmini.core.errors import ParameterError, ROSException, ScriptError
 from rosmini.ros.scripts import rosrun
 from rosmini.sim.gazebo import GazeboClient, GazeboError, GazeboServer
+from rosmini.sim.recorder import Recorder
+from rosmini.sim.recording import RecordingError
 from rosmini.sim.sdf import SdfError
 from rosmini.sim.verbs.gz import Gz
 from rosmini.sim.world import Box, Obstacle, World
@@ -207,3 +209,25 @@ def test_gazebo_is_both(graph):
     assert both.gui.node.name == "/gazebo_gui"
     both.node.shutdown("enough")
     assert both.gui.node.is_shutdown()
+
+
+def test_a_recorder_learns_from_the_server_what_is_there_and_hears_how_it_moves(bench):
+    there = bench()
+    there.spawn(urdf(axle=0.1), "rover")
+    there.spawn(box("crate", mass=1.0), "crate", 1.0)
+    recorder = Recorder(there.graph, there.server)
+    there.drive("/cmd_vel", 0.5)
+    there.graph.run(4.0)
+    recording = recorder.recording()
+    x, *_ = there.server.truth("rover")
+    assert recording.truth[-1][0] == pytest.approx(x + 0.1, abs=0.05)  # the middle of the axle
+    crate = next(each for each in recording.things if each.obstacle.name == "crate")
+    assert crate.poses[0][0] == 1.0
+    assert crate.poses[-1] == pytest.approx(there.server.truth("crate"), abs=0.05)
+    assert len(recording.scans)
+
+
+def test_a_recorder_needs_a_robot(bench):
+    there = bench()
+    with pytest.raises(RecordingError, match="spawn"):
+        Recorder(there.graph, there.server)
