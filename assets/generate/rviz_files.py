@@ -7,7 +7,8 @@ from typing import Any
 
 from rosmini import Graph
 from rosmini.viz.rviz import Scene
-from rosmini.viz.rviz.views import TopDownOrtho
+from rosmini.viz.rviz.properties import Vector
+from rosmini.viz.rviz.views import Orbit, TopDownOrtho, ViewController
 
 Displays = Iterator[tuple[str, str, dict[str, Any]]]
 """Of each display the class, the name, and the properties that differ from RViz's own."""
@@ -50,6 +51,7 @@ def _particles(topic: str = "/particlecloud") -> tuple[str, str, dict[str, Any]]
 MAP = ("Map", "Map", {"Topic": "/map", "Alpha": 1.0, "Draw Behind": True})
 GRID = ("Grid", "Grid", {"Plane Cell Count": 20})
 TF = ("TF", "TF", {"Show Names": False, "Marker Scale": 0.35})
+AXES = ("TF", "TF", {"Show Names": False, "Marker Scale": 0.2})
 NAVFN, DWA, ROLLOUT = "NavfnROS/plan", "DWAPlannerROS", "TrajectoryPlannerROS"
 BOUNDARY = (
     ("Marker", "Exploration Polygon", {"Marker Topic": "/exploration_polygon_marker"}),
@@ -95,8 +97,16 @@ def _robots(names: tuple[str, ...], scan: str, node: str, *, models: bool) -> Di
         yield "Pose", f"{name} goal", {"Topic": f"{move_base}/current_goal", "Color": colour, **SMALL_ARROW}
 
 
-FILES: dict[str, tuple[str, tuple[float, float, float], Any]] = {
-    "turtlebot3_bringup/rviz/model.rviz": ("base_footprint", (0.0, 0.0, 800.0), lambda: iter((GRID, _robot(), TF))),
+View = dict[str, Any]
+"""The properties of an Orbit view."""
+
+CLOSE: View = {"Distance": 0.9, "Focal Point": Vector(0.0, 0.0, 0.1), "Pitch": 0.45, "Yaw": 0.7}
+"""A TurtleBot3 from close up."""
+
+FILES: dict[str, tuple[str, View | tuple[float, float, float], Any]] = {
+    "turtlebot3_bringup/rviz/model.rviz": (
+        "base_footprint", CLOSE, lambda: iter((GRID, _robot(), AXES, _scan("/scan"))),
+    ),
     "turtlebot3_navigation/rviz/turtlebot3_navigation.rviz": (
         "map", (0.0, 0.0, 45.0), lambda: _turtlebot3(_particles()),
     ),
@@ -115,7 +125,7 @@ FILES: dict[str, tuple[str, tuple[float, float, float], Any]] = {
         lambda: _robots(("tb3_0", "tb3_1", "tb3_2", "tb3_3"), "scan", "move_base", models=True),
     ),
 }  # fmt: skip
-"""Of each file its fixed frame, where the view's middle is (x, y) [m] and its scale [px/m], and its displays."""
+"""Of each file its fixed frame, its view (from above: its middle x, y [m] and its scale [px/m]), and its displays."""
 
 
 def texts() -> dict[str, str]:
@@ -123,11 +133,14 @@ def texts() -> dict[str, str]:
     return {path: _text(*what) for path, what in FILES.items()}
 
 
-def _text(frame: str, view: tuple[float, float, float], displays: Any) -> str:
+def _text(frame: str, view: View | tuple[float, float, float], displays: Any) -> str:
     with Graph() as graph, Scene(graph, fixed_frame=frame) as scene:
         for kind, name, properties in displays():
             scene.add(kind, properties).name = name
-        scene.view = made = TopDownOrtho()
-        for key, value in zip(("X", "Y", "Scale"), view, strict=True):
+        made: ViewController = Orbit()
+        if not isinstance(view, dict):
+            made, view = TopDownOrtho(), dict(zip(("X", "Y", "Scale"), view, strict=True))
+        for key, value in view.items():
             made[key] = value
+        scene.view = made
         return scene.saved().text()
