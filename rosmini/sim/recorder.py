@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,6 +44,13 @@ class Simulated(Protocol):
     def model(self) -> RobotModel: ...  # noqa: D102
 
 
+@runtime_checkable
+class Described(Protocol):
+    """A Gazebo server."""
+
+    def subject(self) -> Subject: ...  # noqa: D102 (see the class)
+
+
 class Recorder:
     """Records `scan`, `odom`, `base_pose_ground_truth` and `cmd_vel` of one robot or several.
 
@@ -75,7 +82,7 @@ class Recorder:
     def __init__(
         self,
         graph: Graph | None = None,
-        simulator: Simulated | None = None,
+        simulator: Simulated | Described | None = None,
         *,
         world: World | None = None,
         model: RobotModel | None = None,
@@ -91,8 +98,8 @@ class Recorder:
         robots: dict[str, Any] = {}
         first = ""
         axles: dict[str, Pose] = {}
-        if hasattr(simulator, "subject"):
-            subject: Subject = simulator.subject()
+        if isinstance(simulator, Described):
+            subject = simulator.subject()
             robots = dict(subject.robots)
             if not robots:
                 raise RecordingError("there is no robot in Gazebo's world: spawn one, and record then")

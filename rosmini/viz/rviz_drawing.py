@@ -40,7 +40,7 @@ def rviz_window() -> Picture:
     parts += [_scene()]
     parts += [_line("File    Panels    Help", 34.0, 18.5)]
     parts += [_line("Interact   Move Camera   Select   Focus   Measure   2D Pose   2D Nav Goal   Publish", 34.0, 49.5)]
-    parts += [_line(words, 12.0, 104.0 + 18.0 * i) for i, words in enumerate(LISTED)]
+    parts += [_line(words, 12.0, 104.0 + 18.0 * i) for i, words in enumerate(LISTED) if words]
     parts += [_line(words, 492.0, 104.0 + 18.0 * i) for i, words in enumerate(VIEWED)]
     parts += [_line("Displays", 34.0, 82.0), _line("Views", 514.0, 82.0)]
     parts += [
@@ -68,15 +68,14 @@ def _scene() -> str:
     x0, y0, x1, y1 = SCENE.x, SCENE.y, SCENE.right, SCENE.bottom
     middle, horizon = (x0 + x1) / 2, y0 + 70.0
     made = [element("rect", x=x0, y=y0, width=x1 - x0, height=y1 - y0, fill="#303030")]
-    grey = {"stroke": "#a0a0a4", "stroke_width": 1.0}
+    grey: dict[str, str | float] = {"fill": "none", "stroke": "#a0a0a4", "stroke_width": 1.0}
     made += [
-        element("path", d=f"M{middle + 16 * i},{horizon}L{middle + 30 * i},{y1 - 8}", fill="none", **grey)
-        for i in range(-5, 6)
+        element("path", d=f"M{middle + 16 * i},{horizon}L{middle + 30 * i},{y1 - 8}", **grey) for i in range(-5, 6)
     ]
     for i in range(6):
-        depth = (i / 5) ** 1.5
+        depth = i * (i + 2) / 35
         half, y = 80 + 70 * depth, horizon + (y1 - 8 - horizon) * depth
-        made.append(element("path", d=f"M{middle - half},{y:.1f}L{middle + half},{y:.1f}", fill="none", **grey))
+        made.append(element("path", d=f"M{middle - half},{y:.1f}L{middle + half},{y:.1f}", **grey))
     made += [
         element("circle", cx=middle - 80 + 8 * i, cy=horizon + 4 + (i % 3), r=1.8, fill="#ff1900") for i in range(21)
     ]

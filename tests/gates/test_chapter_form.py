@@ -74,7 +74,6 @@ def broken_rules(chapter: str) -> set[str]:
 
 
 TO_REWRITE: dict[str, set[str]] = {
-    "rviz": {"columns", "private API"},
     "navigation_stack": {"private API"},
     "maps": {"private API"},
     "costmaps": {"private API"},

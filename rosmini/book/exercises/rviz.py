@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from contextlib import contextmanager
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rosmini.book.checks import Script, Wrong, exercise, expect, expect_type
 from rosmini.book.trials import Trial
@@ -13,9 +14,16 @@ from rosmini.core.tf import StaticTransformBroadcaster
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.msgs.nav_msgs.msg import Odometry
 from rosmini.msgs.visualization_msgs.msg import Marker
-from rosmini.viz.rviz import Level, Scene, still
+from rosmini.viz.rviz import Config, Level, Scene, still
 
-RED = (255, 0, 0)
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from rosmini.viz.rviz import Display
+
+BLUE = (0, 0, 255)
+FRIENDS = {"Laser": "rviz/LaserScan", "Path": "rviz/Odometry", "Frames": "rviz/TF"}
+"""The displays of the file to correct."""
 
 
 def _robot(trial: Trial) -> None:
@@ -27,93 +35,86 @@ def _robot(trial: Trial) -> None:
     node.timer(0.1, lambda _: cmd_vel.publish(command))
 
 
+@contextmanager
+def _scene(trial: Trial, answer: Any) -> Iterator[Scene]:
+    """Return the scene of a file's text."""
+    expect_type(answer, str, "It is", "the text of a .rviz file", 'text = """..."""')
+    try:
+        with Scene(trial.graph, Config.parse(answer)) as scene:
+            expect(not scene.warning, f"RViz says: {scene.warning}", "compare the names with those of drive.rviz")
+            yield scene
+    except RosminiError as error:
+        if isinstance(error, Wrong):
+            raise
+        raise Wrong(f"RViz cannot use it: {error}", "compare it with drive.rviz; mind the indentation") from error
+
+
 # ---- properties: a display's properties ----
 
-SWITCHES = (
-    "Autocompute Intensity Bounds",
-    "Autocompute Value Bounds",
-    "Enabled",
-    "Invert Rainbow",
-    "Selectable",
-    "Unreliable",
-    "Use Fixed Frame",
-    "Use rainbow",
-    "Value",
-)
-"""Properties of the display that are True or False."""
 
-
-@exercise("properties", praise="Scans stay for ten seconds, so each wall is drawn fifty times.", truths=SWITCHES)
+@exercise("properties", praise="Scans stay for ten seconds, so each wall is drawn fifty times.")
 def properties(answer: Any) -> Any:
-    """Properties of a LaserScan display that is red, has points of 5 cm, and keeps scans for ten seconds."""
-    expect_type(answer, dict, "properties is", "a dictionary from property to value")
-    expect(
-        all(isinstance(key, str) for key in answer),
-        "The name of a property must be a string.",
-        'for example "Topic": "/scan"',
-    )
-    with Trial(is_shown=False) as trial, Scene(trial.graph, fixed_frame="odom") as scene:
+    """A file with a LaserScan display that is blue, has points of 5 cm, and keeps scans for ten seconds."""
+    with Trial(is_shown=False) as trial:
         _robot(trial)
-        try:
-            laser = scene.add("LaserScan", answer)
-        except RosminiError as error:
-            raise Wrong(f"The display refuses it: {error}", "print(laser.tree()) lists all names") from error
-        trial.run(4.0)
-        shown = still(scene, title="What your display shows", fit=True)
-        expect(laser["Topic"].lstrip("/") == "scan", "It does not subscribe to /scan.", "set Topic")
-        expect(
-            laser["Color Transformer"] == "FlatColor",
-            f"The points are coloured by {laser['Color Transformer']}, which ignores the property Color.",
-            "set Color Transformer to FlatColor",
-        )
-        expect(
-            tuple(laser["Color"]) == RED,
-            "The colour is not red.",
-            "Color has three numbers up to 255: red, green and blue",
-        )
-        expect(
-            laser["Style"] != "Points",
-            "In the style Points a point has a size in pixels, and Size (m) has no effect.",
-            "do not change Style",
-        )
-        expect(
-            math.isclose(laser["Size (m)"], 0.05), f"A point is {laser['Size (m)']:g} m wide, not 5 cm.", "set Size (m)"
-        )
-        expect(
-            math.isclose(laser["Decay Time"], 10.0),
-            f"A scan stays for {laser['Decay Time']:g} s, not 10.",
-            "set Decay Time; 0 keeps only the last scan",
-        )
-        return shown
+        with _scene(trial, answer) as scene:
+            trial.run(4.0)
+            shown = still(scene, title="What your file shows", fit=True)
+            expect(scene.fixed_frame == "odom", f"Its fixed frame is {scene.fixed_frame}, not odom.")
+            displays = list(scene)
+            expect(
+                [each.plugin_name for each in displays] == ["rviz/LaserScan"],
+                f"Its displays are: {', '.join(each.plugin_name for each in displays) or 'none'}.",
+                "one display, of the class rviz/LaserScan",
+            )
+            _check_laser(displays[0])
+            return shown
 
 
-# ---- correct: a scene with four faults ----
+def _check_laser(laser: Display) -> None:
+    expect(laser["Topic"].lstrip("/") == "scan", "It does not subscribe to /scan.", "set Topic")
+    expect(
+        laser["Color Transformer"] == "FlatColor",
+        f"The points are coloured by {laser['Color Transformer']}, which ignores the property Color.",
+        "set Color Transformer to FlatColor",
+    )
+    expect(tuple(laser["Color"]) == BLUE, "The colour is not blue.", "red; green; blue, each up to 255")
+    expect(
+        laser["Style"] != "Points",
+        "In the style Points a point has a size in pixels, and Size (m) has no effect.",
+        "do not change Style",
+    )
+    expect(math.isclose(laser["Size (m)"], 0.05), f"A point is {laser['Size (m)']:g} m wide, not 5 cm.", "set Size (m)")
+    expect(
+        math.isclose(laser["Decay Time"], 10.0),
+        f"A scan stays for {laser['Decay Time']:g} s, not 10.",
+        "set Decay Time; 0 keeps only the last scan",
+    )
+
+
+# ---- correct: a file with four faults ----
 
 
 @exercise("correct", praise="The fixed frame, both topics and the disabled display are correct now.")
 def correct(answer: Any) -> Any:
-    """A function that corrects the fixed frame and two topics, and enables a display."""
-    with Trial(is_shown=False) as trial, Scene(trial.graph, fixed_frame="odon") as scene:
+    """A file in which the fixed frame, two topics and a disabled display are corrected."""
+    with Trial(is_shown=False) as trial:
         _robot(trial)
-        scene.add("LaserScan", {"Topic": "/scans"}, name="Laser")
-        scene.add("Odometry", {"Topic": "/imu", "Covariance": False}, name="Way")
-        scene.add("TF", name="Frames").enabled = False
-        trial.run(1.0)
-        names = [display.name for display in scene]
-        answer(scene)
-        trial.run(3.0)
-        shown = still(scene, title="The scene after your function", fit=True)
-        found = {display.name: display for display in scene}
-        expect(list(found) == names, "Displays were added or removed.", "change the existing ones")
-        for status in scene.global_status:
-            expect(status.level is Level.OK, f"Global Status says: {status}", "set scene.fixed_frame")
-        frame = scene.fixed_frame
-        expect(frame == "odom", f"{frame} moves with the robot, so the room turns around it.", "use odom")
-        for name, display in found.items():
-            expect(display.enabled, f"{name} is still disabled.", "set enabled to True")
-            bad = [str(each) for each in display.statuses if each.level is not Level.OK]
-            expect(not bad, f"{name} says: {'; '.join(bad)}", "which topic carries messages of its type?")
-        return shown
+        with _scene(trial, answer) as scene:
+            trial.run(3.0)
+            shown = still(scene, title="The scene of your file", fit=True)
+            found = {display.name: display for display in scene}
+            kinds = {name: display.plugin_name for name, display in found.items()}
+            expect(kinds == FRIENDS, "Displays were added, removed or renamed.", "change the existing ones")
+            for status in scene.global_status:
+                expect(status.level is Level.OK, f"Global Status says: {status}", "set Fixed Frame")
+            frame = scene.fixed_frame
+            expect(frame == "odom", f"{frame} moves with the robot, so the room turns around it.", "use odom")
+            for name, display in found.items():
+                expect(display.enabled, f"{name} is still disabled.", "set Enabled to true")
+                bad = [str(each) for each in display.statuses if each.level is not Level.OK]
+                expect(not bad, f"{name} says: {'; '.join(bad)}", "which topic carries messages of its type?")
+            return shown
 
 
 # ---- trail: a marker that grows ----

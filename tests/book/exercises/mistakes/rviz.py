@@ -2,16 +2,34 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from rosmini.book.checks import Script
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-LASER: dict[str, Any] = {
-    "Topic": "/scan", "Color Transformer": "FlatColor", "Color": (255, 0, 0), "Size (m)": 0.05, "Decay Time": 10.0,
-}  # fmt: skip
+LASER = """
+Visualization Manager:
+  Global Options: {Fixed Frame: odom}
+  Displays:
+    - Class: rviz/LaserScan
+      Name: Laser
+      Topic: /scan
+      Color Transformer: FlatColor
+      Color: 0; 0; 255
+      Size (m): 0.05
+      Decay Time: 10
+"""
+
+FRIEND = """
+Visualization Manager:
+  Global Options: {Fixed Frame: odom}
+  Displays:
+    - {Class: rviz/LaserScan, Name: Laser, Topic: /scan}
+    - {Class: rviz/Odometry, Name: Path, Topic: /odom, Covariance: {Value: false}}
+    - {Class: rviz/TF, Name: Frames, Enabled: true}
+"""
 
 TRAIL = """
 import rospy
@@ -26,7 +44,7 @@ def begin(line):
     line.pose.orientation.w = 1.0
 
 
-def hear(odom):
+def on_odom(odom):
     line.header = odom.header
     line.points.append(odom.pose.pose.position)
     markers.publish(line)
@@ -36,17 +54,14 @@ rospy.init_node("trail")
 line = Marker()
 begin(line)
 markers = rospy.Publisher("visualization_marker", Marker, queue_size=1)
-rospy.Subscriber("odom", Odometry, hear)
+rospy.Subscriber("odom", Odometry, on_odom)
 rospy.spin()
 """
 
 
-def _laser(**changed: Any) -> Callable[[], dict[str, Any]]:
-    return lambda: {**LASER, **{name.replace("_", " "): value for name, value in changed.items()}}
-
-
-def _without(name: str) -> Callable[[], dict[str, Any]]:
-    return lambda: {each: value for each, value in LASER.items() if each != name}
+def _text(right: str, old: str, new: str) -> Callable[[], str]:
+    assert old in right
+    return lambda: right.replace(old, new)
 
 
 def _script(old: str, new: str) -> Callable[[], Script]:
@@ -54,45 +69,34 @@ def _script(old: str, new: str) -> Callable[[], Script]:
     return lambda: Script("answer.py", TRAIL.replace(old, new))
 
 
-def _mend(frame: str = "odom", laser: str = "/scan", way: str = "/odom", *, on: bool = True) -> Callable[[], Any]:
-    def mend(scene: Any) -> None:
-        scene.fixed_frame = frame
-        scene["Laser"]["Topic"] = laser
-        scene["Way"]["Topic"] = way
-        scene["Frames"].enabled = on
-
-    return lambda: mend
-
-
-def _new_ones(scene: Any) -> None:
-    scene.fixed_frame = "odom"
-    for display in list(scene):
-        scene.remove(display)
-    scene.add("LaserScan", {"Topic": "/scan"})
-
-
 MISTAKES: dict[str, list[Callable[[], object]]] = {
     "properties": [
         dict,
         lambda: "FlatColor",
-        lambda: {1: 2},
-        _laser(Topic="/scans"),
-        _laser(Colour=(255, 0, 0)),
-        _laser(Color=(0, 0, 255)),
-        _laser(Color_Transformer="Red"),
-        _laser(Decay_Time=1.0),
-        _laser(Style="Points"),
-        *(_without(name) for name in LASER),
+        lambda: "Visualization Manager: [",
+        _text(LASER, "Visualization Manager", "Manager"),
+        _text(LASER, "odom", "base_scan"),
+        _text(LASER, "rviz/LaserScan", "rviz/Laser"),
+        _text(LASER, "/scan", "/scans"),
+        _text(LASER, "Color:", "Colour:"),
+        _text(LASER, "0; 0; 255", "255; 0; 0"),
+        _text(LASER, "FlatColor", "Intensity"),
+        _text(LASER, "Decay Time: 10", "Decay Time: 1"),
+        _text(LASER, "Decay Time: 10", "Style: Points"),
+        _text(LASER, "      Size (m): 0.05\n", ""),
+        _text(
+            LASER, "    - Class: rviz/LaserScan", "    - {Class: rviz/Grid, Name: Grid}\n    - Class: rviz/LaserScan"
+        ),
     ],
     "correct": [
-        lambda: print,
-        _mend(frame="odon"),
-        _mend(frame="base_footprint"),
-        _mend(laser="/scans"),
-        _mend(laser="/odom"),
-        _mend(way="/imu"),
-        _mend(on=False),
-        lambda: _new_ones,
+        lambda: None,
+        _text(FRIEND, "Frame: odom", "Frame: odon"),
+        _text(FRIEND, "Frame: odom", "Frame: base_footprint"),
+        _text(FRIEND, "/scan", "/scans"),
+        _text(FRIEND, "/scan", "/odom"),
+        _text(FRIEND, "/odom", "/imu"),
+        _text(FRIEND, "true", "false"),
+        _text(FRIEND, "    - {Class: rviz/TF, Name: Frames, Enabled: true}\n", ""),
     ],
     "trail": [
         _script("LINE_STRIP", "POINTS"),
