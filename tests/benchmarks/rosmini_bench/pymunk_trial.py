@@ -324,7 +324,7 @@ def table(found: dict[str, dict[str, list[float | None]]]) -> str:
     rows = [["", *WAYS], ["---", *["---:"] * len(WAYS)]]
     for name, values in found["speed"].items():
         ours = values[0] or math.nan
-        others = (f"{_short(each)} ({each / ours:.1g})" if each else "as ours" for each in values[1:])
+        others = (f"{_short(each)} ({each / ours:.2g})" if each else "as ours" for each in values[1:])
         rows.append([f"{name} [s/s]", _short(ours), *others])
     for name, values in found["error"].items():
         rows.append([f"{name} [mm]", *(_short(each or 0.0) for each in values)])
@@ -335,8 +335,7 @@ def _short(number: float) -> str:
     """Write a number with few digits; 0 means exactly 0."""
     if 0 < number < 1e-9:
         return "under 0.000000001"
-    digits = 2 if number > 1 else 1
-    return f"{number:,.0f}" if number > 100 else np.format_float_positional(float(f"{number:.{digits}g}"), trim="-")
+    return f"{number:,.0f}" if number > 100 else np.format_float_positional(float(f"{number:.2g}"), trim="-")
 
 
 def updated(page: str) -> str:
