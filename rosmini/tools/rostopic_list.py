@@ -103,7 +103,9 @@ class TopicInfo(Result):
 
 def info_parser() -> Parser:
     """Return the parser of ``rostopic info``."""
-    return parser_of("info /topic", "Show the type of a topic, and who is on it.", "info /chatter")
+    parser = parser_of("info /topic", "Show the type of a topic, and who is on it.", "info /chatter")
+    parser.flag("-v", dest="verbose", help="with the number of messages that full queues have dropped (not in ROS)")
+    return parser
 
 
 def info(given: Values, call: Call) -> TopicInfo:
@@ -113,7 +115,7 @@ def info(given: Values, call: Call) -> TopicInfo:
     if len(given.words) > 1:
         info_parser().error("you may only specify one topic name")
     name = global_name(given.words[0])
-    about = topics.about(call.peers, name)
+    about = topics.about(call.peers, name, count_drops=given.verbose)
     if about is None:
         raise VerbError(f"ERROR: Unknown topic {name}\n{topics.what_next(call.peers, name)}")
     return TopicInfo(about=about)

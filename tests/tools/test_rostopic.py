@@ -95,5 +95,22 @@ def test_a_tool_that_only_asks_starts_without_a_graph() -> None:
     assert process([sys.executable, "-c", code], env=env).stdout == "[]\n"
 
 
+def test_info_counts_the_messages_that_queues_have_dropped(graph: Graph) -> None:
+    node = graph.node("slow")
+    node.subscriber("burst", String, lambda _: node.sleep(1.0), queue_size=1)
+    publisher = graph.node("quick").publisher("burst", String)
+    publisher.wait_for_subscribers()
+    for number in range(10):
+        publisher.publish(str(number))
+    graph.run(5.0)
+    found = run(graph, "info", "-v", "/burst")
+    assert [(flow.subscriber, flow.side, flow.dropped) for flow in found.about.flows] == [
+        ("/slow", "publisher", 0),
+        ("/slow", "subscriber", 8),
+    ]
+    assert "/quick -> /slow (/burst): 8 dropped" in str(found)
+    assert "ropped" not in str(run(graph, "info", "/burst"))
+
+
 def test_what_is_refused(graph: Graph) -> None:
     assert_golden("rostopic", lambda line: printed(TOOL, graph, line))

@@ -432,7 +432,8 @@ class Connection:
             node.logger.log(
                 LEVELS["INFO"],
                 f"the callback of {node.name} takes messages on {topic} more slowly than {self.peer} publishes them: "
-                f"with queue_size={subscription.queue_size}, the oldest are dropped.",
+                f"with queue_size={subscription.queue_size}, the oldest are dropped. `rostopic info -v {topic}` counts "
+                "them.",
                 is_shown=False,
             )
 

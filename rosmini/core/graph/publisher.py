@@ -206,7 +206,7 @@ class Publication:
         queue = "no queue_size, and too many bytes wait" if size is None else f"queue_size={size}"
         self.node.logwarn(
             f"{sender.destination} takes messages on {self.topic} more slowly than {self.node.name} publishes them: "
-            f"with {queue}, the oldest are dropped."
+            f"with {queue}, the oldest are dropped. `rostopic info -v {self.topic}` counts them."
         )
 
     def accept(self, header: Header, sender: Sender) -> Header:

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
+from rosmini.core.errors import TransportException
 from rosmini.core.peers import Peers
 
+from .drops import Flow, flows
 from .nodes import namespace_of
 
 ID = "/rostopic"
@@ -123,20 +125,38 @@ class About(NamedTuple):
     type: str
     publishers: dict[str, str]
     subscribers: dict[str, str]
+    flows: tuple[Flow, ...] | None = None
+    """Connections with their numbers of dropped messages, if requested."""
 
     def __str__(self) -> str:
         text = f"Type: {self.type}\n\n"
         for title, nodes in (("Publishers", self.publishers), ("Subscribers", self.subscribers)):
             listed = "".join(f" * {node} ({uri})\n" for node, uri in nodes.items())
             text += f"{title}: \n{listed}\n" if nodes else f"{title}: None\n\n"
+        if self.flows is not None:
+            drops = "".join(f" * {flow}\n" for flow in self.flows if flow.dropped)
+            text += f"Dropped messages: \n{drops}\n" if drops else "Dropped messages: None\n\n"
         return text
 
 
-def about(peers: Peers, name: str) -> About | None:
-    """Return the nodes on a topic; None if there are none."""
+def about(peers: Peers, name: str, *, count_drops: bool = False) -> About | None:
+    """Return the nodes on a topic; None if there are none. ``count_drops``: also ask them for dropped messages."""
     found = topics(peers)
     sides = [[each for each in side if each.name == name] for side in found]
     if not any(sides):
         return None
     ends = [addresses(peers, [node for each in side for node in each.nodes]) for side in sides]
-    return About(next(each.type for side in sides for each in side), ends[0], ends[1])
+    dropped = _flows(peers, name, ends[0] | ends[1]) if count_drops else None
+    return About(next(each.type for side in sides for each in side), ends[0], ends[1], dropped)
+
+
+def _flows(peers: Peers, topic: str, uris: dict[str, str]) -> tuple[Flow, ...]:
+    """Return the connections on a topic; nodes that do not answer are omitted."""
+    names = {uri: node for node, uri in uris.items()}
+    found: list[Flow] = []
+    for node, uri in sorted(uris.items()):
+        try:
+            found += [each for each in flows(peers, ID, node, uri, names) if each.topic == topic]
+        except TransportException:
+            continue
+    return tuple(found)

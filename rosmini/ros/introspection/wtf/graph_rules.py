@@ -86,6 +86,23 @@ def unheard_topics(graph: Survey) -> Iterator[Finding]:
         )  # fmt: skip
 
 
+def dropped_messages(graph: Survey) -> Iterator[Finding]:
+    """Find connections whose queues have dropped messages."""
+    found = tuple(
+        str(flow)
+        for node in graph.nodes.values()
+        if not node.name.startswith(TOOLS)
+        for flow in node.flows
+        if flow.dropped and not flow.subscriber.startswith(TOOLS)
+    )
+    if found:
+        yield Finding(
+            "dropped_messages", "WARNING", "Queues were full, and dropped the oldest messages:", found,
+            "The subscriber's callback takes longer than the messages are apart. That is fine where only the newest "
+            "message counts. Otherwise make the callback faster, publish less often, or set a larger queue_size.",
+        )  # fmt: skip
+
+
 def no_clock(graph: Survey) -> Iterator[Finding]:
     """Find simulated time without a clock, a clock that no node uses, or one that several nodes set."""
     publishers = graph.publishers.get("/clock", ())
@@ -156,6 +173,7 @@ RULES: tuple[Callable[[Survey], Iterator[Finding]], ...] = (
     types_differ,
     not_connected,
     unheard_topics,
+    dropped_messages,
     no_clock,
     several_drivers,
     strangers_parameters,

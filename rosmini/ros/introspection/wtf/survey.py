@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import ROSException, TransportException
+from rosmini.ros.introspection.drops import Flow, flows
 from rosmini.ros.introspection.nodes import succeed, why_silent
 
 if TYPE_CHECKING:
@@ -28,6 +29,8 @@ class Node:
     subscribed: Mapping[str, str] = field(default_factory=dict)
     sources: frozenset[tuple[str, str]] = frozenset()
     """(topic, address or name of the publisher) of each open inbound connection."""
+    flows: tuple[Flow, ...] = ()
+    """Its connections, with their numbers of dropped messages."""
     silence: str = ""
 
 
@@ -68,8 +71,9 @@ def survey(peers: Peers) -> Survey:
     names = sorted({name for part in (published, subscribed, services) for held in part.values() for name in held})
     parameters = master.find("getParam", "/")
     uris = {name: master.find("lookupNode", name) for name in names}
+    by_uri = {uri: name for name, uri in uris.items() if uri is not None}
     return Survey(
-        {name: _node(peers, name, uri) for name, uri in uris.items()},
+        {name: _node(peers, name, uri, by_uri) for name, uri in uris.items()},
         published,
         subscribed,
         services,
@@ -77,7 +81,7 @@ def survey(peers: Peers) -> Survey:
     )
 
 
-def _node(peers: Peers, name: str, uri: str | None) -> Node:
+def _node(peers: Peers, name: str, uri: str | None, names: Mapping[str, str]) -> Node:
     if uri is None:
         return Node(name, "", silence=f"the Master lists [{name}] and has no address of it")
     try:
@@ -85,7 +89,14 @@ def _node(peers: Peers, name: str, uri: str | None) -> Node:
             succeed(peers.transport.call(uri, method, ID))
             for method in ("getPublications", "getSubscriptions", "getBusInfo")
         )
-        return Node(name, uri, dict(published), dict(subscribed), frozenset(map(_source, filter(_is_source, links))))
+        return Node(
+            name,
+            uri,
+            dict(published),
+            dict(subscribed),
+            frozenset(map(_source, filter(_is_source, links))),
+            flows(peers, ID, name, uri, names),
+        )
     except TransportException as error:
         return Node(name, uri, silence=why_silent(error, name, uri))
     except (ROSException, ValueError, TypeError, IndexError) as error:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
+from rosmini.ros.introspection.drops import Flow
 from rosmini.ros.introspection.wtf import graph_rules
 from rosmini.ros.introspection.wtf.graph_rules import RULES
 from rosmini.ros.introspection.wtf.survey import Node, Survey
@@ -49,6 +51,17 @@ def test_nodes_that_do_not_answer_are_listed_and_not_held_against_others() -> No
     graph = Survey({"/dead": dead, "/listener": node("/listener", {}, {"/x": TEXT})}, {"/x": ("/dead",)},
                    {"/x": ("/listener",)}, {}, {})  # fmt: skip
     assert found(graph) == {"silent_nodes": ("/dead: connection refused to [http://here:9/]",)}
+
+
+def test_dropped_messages_are_counted_and_those_of_tools_left_out() -> None:
+    flows = (
+        Flow("/chatter", "/talker", "/listener", "subscriber", 7),
+        Flow("/x", "/talker", "/listener", "subscriber", 0),
+    )
+    listener = replace(LISTENER, flows=flows)
+    tool = replace(LISTENER, name="/rqt_plot_1", flows=(Flow("/chatter", "/talker", "/rqt_plot_1", "subscriber", 9),))
+    (where,) = found(survey(TALKER, listener, tool))["dropped_messages"]
+    assert all(part in where for part in ("/talker", "/listener", "/chatter", " 7 "))
 
 
 def test_types_that_differ_are_named_with_their_nodes() -> None:

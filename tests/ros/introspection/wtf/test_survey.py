@@ -27,6 +27,23 @@ def test_a_graph_in_this_process_answers_for_all_its_nodes() -> None:
         assert not any(node.silence for node in found.nodes.values())
 
 
+def test_messages_that_queues_drop_are_counted_by_connection() -> None:
+    with Graph() as graph:
+        talker, listener = graph.node("talker"), graph.node("listener")
+        listener.subscriber("n", Int32, lambda _: listener.sleep(1.0), queue_size=1)
+        publisher = talker.publisher("n", Int32)
+        publisher.wait_for_subscribers()
+        for number in range(10):
+            publisher.publish(number)
+        graph.run(5.0)
+        found = survey(graph)
+    sent, received = (
+        next(flow for flow in found.nodes[name].flows if flow.topic == "/n") for name in ("/talker", "/listener")
+    )
+    assert sent == ("/n", "/talker", "/listener", "publisher", 0)
+    assert received == ("/n", "/talker", "/listener", "subscriber", 8)
+
+
 def test_nodes_that_do_not_answer_or_answer_nonsense_are_silent() -> None:
     class Peers:
         transport = scheduler = property(lambda self: self)
