@@ -109,7 +109,7 @@ DRIVES = (
 """What the robot does, its commands [m/s, rad/s], and the position of the joint [rad]."""
 
 
-@exercise("flag_up", praise="Whoever sees the flag upright steps aside.")
+@exercise("flag_up", praise="People see the upright flag and step aside.")
 def flag_up(answer: Script) -> Any:
     """The node lowers the flag while the robot stands still."""
     got: list[float] = []
