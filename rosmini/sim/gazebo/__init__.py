@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from . import examples, ros_plugins  # registers their plugins
+from . import ros_plugins  # registers its plugins
 from .client import GazeboClient
 from .errors import GazeboError, SpawnError, UnknownEntity, UnknownPlugin
 from .plugin_tags import Tags, tag
@@ -23,7 +23,6 @@ __all__ = [
     "UnknownEntity",
     "UnknownPlugin",
     "WorldPlugin",
-    "examples",
     "plugin_class",
     "plugin_filenames",
     "ros_plugins",

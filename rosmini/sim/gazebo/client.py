@@ -12,7 +12,7 @@ from rosmini.core.errors import ScriptError
 from rosmini.core.graph import Node
 
 from .snapshot import Pictured, Snapshot
-from .topics import GazeboMaster, Poses, WorldStatistics, address, find_master
+from .topics import GazeboMaster, Poses, address, find_master
 
 WAIT_S = 30.0
 """Time a client waits for a server [s]."""
@@ -51,29 +51,21 @@ class GazeboClient(Pictured):
         if master is None:
             raise ScriptError(f"the server at {address()} has ended")
         self.master: GazeboMaster = master
-        self.statistics: WorldStatistics | None = None
-        """The latest time statistics of the world."""
         self._poses = Poses.of(master.world)
         self._lane = node.spawn(f"{node.name} display")
         self._program = f"gzclient {node.name}"
         master.join(self._program)
         master.poses.listeners.append(self._moved)
-        master.statistics.listeners.append(self._counted)
         node.on_shutdown(self._close)
-        master.statistics.publish()
         master.poses.publish()
         graph.changes.notify()
 
     def _close(self) -> None:
         self.master.leave(self._program)
         self.master.poses.listeners.remove(self._moved)
-        self.master.statistics.listeners.remove(self._counted)
 
     def _moved(self, poses: Poses) -> None:
         self._lane.post(partial(setattr, self, "_poses", poses))  # as a message, it arrives after the step
-
-    def _counted(self, statistics: WorldStatistics) -> None:
-        self._lane.post(partial(setattr, self, "statistics", statistics))
 
     @property
     def models(self) -> tuple[str, ...]:

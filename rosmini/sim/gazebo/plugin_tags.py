@@ -55,21 +55,6 @@ class Tags:
                 raise element.error(f"the plugin needs a <{name}>: {each.metadata['meaning']}")
         return cls(**values)
 
-    @classmethod
-    def table(cls) -> list[tuple[str, str, str, str, str]]:
-        """Return tag, type, default, unit and meaning of each tag, in the order of declaration."""
-        types = get_type_hints(cls)
-        return [
-            (
-                each.metadata["tag"],
-                _kind(types[each.name]).__name__,
-                "" if each.default in (MISSING, None) else str(each.default),
-                each.metadata["unit"],
-                each.metadata["meaning"],
-            )
-            for each in fields(cls)
-        ]
-
 
 def _kind(hint: Any) -> type:
     return next((part for part in get_args(hint) if part is not type(None)), hint)  # type: ignore[no-any-return]

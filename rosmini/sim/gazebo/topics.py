@@ -90,29 +90,6 @@ def wheels(model: Model) -> tuple[str, ...]:
 
 
 @dataclass(frozen=True)
-class WorldStatistics:
-    """The progress of a world's time; printed as Gazebo prints it."""
-
-    sim_time: float
-    real_time: float
-    """Time since the server started [s]."""
-    paused: bool
-    iterations: int
-    model_count: int
-
-    def __str__(self) -> str:
-        times = {"sim_time": self.sim_time, "pause_time": 0.0, "real_time": self.real_time}
-        lines = [_time(name, seconds) for name, seconds in times.items()]
-        lines += [f"paused: {str(self.paused).lower()}", f"iterations: {self.iterations}"]
-        return "\n".join([*lines, f"model_count: {self.model_count}"])
-
-
-def _time(name: str, seconds: float) -> str:
-    whole, rest = divmod(round(seconds * 1e9), 1_000_000_000)
-    return f"{name} {{\n  sec: {whole}\n  nsec: {rest}\n}}"
-
-
-@dataclass(frozen=True)
 class TopicInfo:
     """The publishers and subscribers of a topic."""
 
@@ -180,8 +157,7 @@ class GazeboMaster:
         self._ports = itertools.count(FIRST_PORT)
         self.join(SERVER)
         host = world.host
-        self._started_ns = host.clock.now_ns()
-        self.statistics = host.add(Periodic(host, "~/world_stats", STATISTICS_RATE, self._statistics))
+        self.statistics = host.add(Periodic(host, "~/world_stats", STATISTICS_RATE, lambda: None))
         self.poses = host.add(Periodic(host, "~/pose/info", POSES_RATE, lambda: Poses.of(world)))
         world.on_change.append(lambda *_: self.poses.publish())
         host.on_time.append(self._timed)
@@ -220,12 +196,6 @@ class GazeboMaster:
     def _of(self, kinds: str) -> tuple[str, ...]:
         """Return the programs of some kinds: the server, the clients, or both."""
         return tuple(name for name in self._programs if ("server" if name == SERVER else "client") in kinds)
-
-    def _statistics(self) -> WorldStatistics:
-        world = self.world
-        real = (world.host.clock.now_ns() - self._started_ns) * 1e-9
-        iterations = round(world.now / world.physics.time_step)
-        return WorldStatistics(world.now, real, world.paused, iterations, len(world.models))
 
     def _timed(self) -> None:
         self.statistics.publish()

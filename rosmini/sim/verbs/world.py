@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass, field
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -78,16 +77,11 @@ class Checked(Result):
 def _check_parser() -> ArgumentParser:
     parser = ArgumentParser(
         "rosmini world check",
-        "Check files: Gazebo worlds and models (SDF), Stage worlds, ROS maps (YAML), robots (URDF). What a file is, is "
-        "read from its contents. The exit status is 1 if something is wrong with one of them; notes are no errors.",
-        epilog="for example: rosmini world check my.world map.yaml robot.urdf",
+        "Check files: Gazebo worlds and models (SDF), Stage worlds, ROS maps (YAML). What a file is, is read from its "
+        "contents. The exit status is 1 if something is wrong with one of them; notes are no errors.",
+        epilog="for example: rosmini world check my.world map.yaml",
     )
     parser.add_argument("files", nargs="+", metavar="FILE", help="a file, or the name of a world that rosmini brings")
-    parser.add_argument(
-        "--unconfined",
-        action="store_true",
-        help="let expressions of xacro files do whatever Python can; only for files that you trust",
-    )
     return parser
 
 
@@ -98,13 +92,13 @@ def check(given: argparse.Namespace, _call: Call) -> Checked:
     complaints: list[str] = []
     for file in given.files:
         try:
-            sound.append(_checked(file, confined=not given.unconfined))
+            sound.append(_checked(file))
         except (RosminiError, OSError) as error:
             complaints.append(_placed(file, str(error)))
     return Checked(sound=tuple(sound), complaints=tuple(complaints), status=1 if complaints else 0)
 
 
-def _checked(file: str, *, confined: bool) -> FileCheck:
+def _checked(file: str) -> FileCheck:
     """Check one file. Raises the errors of its reader."""
     from rosmini.sim.worlds import kind_of, names, source, world
 
@@ -116,7 +110,7 @@ def _checked(file: str, *, confined: bool) -> FileCheck:
     else:
         path = _resolved(file)
     checks: dict[str, Callable[[Path], FileCheck]] = {
-        "sdf": _sdf, "stage": _stage, "map": _map, "urdf": partial(_urdf, confined=confined), "xml": _sdf,
+        "sdf": _sdf, "stage": _stage, "map": _map, "urdf": _sdf, "xml": _sdf,
     }  # fmt: skip
     return checks[kind_of(path)](path)
 
@@ -174,24 +168,6 @@ def _map(path: Path) -> FileCheck:
     occupied, free = (100 * float(mask.mean()) for mask in (grid.occupied, grid.free))
     size = f"{width} x {height} cells of {grid.resolution:g} m"
     return FileCheck(str(path), f"map: {size}, {occupied:.1f} % occupied, {free:.1f} % free")
-
-
-def _urdf(path: Path, *, confined: bool) -> FileCheck:
-    from rosmini.core.markup import parse_file
-    from rosmini.sim.urdf import UrdfError, load
-
-    written = parse_file(path, UrdfError)
-    if path.suffix == ".xacro" and not written.get("name"):  # not a robot, but included by others
-        from rosmini.sim.urdf.xacro import expand
-
-        expand(path, {}, confined=confined)
-        macros = sum(each.tag == "xacro:macro" for each in written.walk())
-        what = f"xacro: a part of a robot, with {_count(macros, 'macro')}, for others to include"
-        return FileCheck(str(path), what)
-    robot = load(path, confined=confined)
-    said = f"URDF: the robot {robot.name!r}: {_count(len(robot.links), 'link')}, {_count(len(robot.joints), 'joint')}"
-    left_out = {kind: len(notes) for kind, notes in robot.left_out.items()}
-    return FileCheck(str(path), said, robot.notes, left_out)
 
 
 def _measures(world: World) -> str:
