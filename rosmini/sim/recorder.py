@@ -131,20 +131,7 @@ class Recorder:
         self._first = _Run(self, first, model, space and _resolved(simulator, space))
         self._runs[first] = self._first
         for other, robot in robots.items():
-            self.add(other, robot.model, _resolved(simulator, robot.namespace or "/"))
-
-    def add(self, name: str, model: RobotModel, namespace: str | None = None) -> None:
-        """Also record another robot from now on.
-
-        The namespace of its topics is its name if not given.
-
-        Raises:
-            RecordingError: a robot of this name is already recorded.
-
-        """
-        if name in self._runs:
-            raise RecordingError(f"a robot {name!r} is recorded already; give the new one a different name")
-        self._runs[name] = _Run(self, name, model, name if namespace is None else namespace)
+            self._runs[other] = _Run(self, other, robot.model, _resolved(simulator, robot.namespace or "/"))
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{len(track.rows)} {topic}" for topic, track in self._first.tracks.items())

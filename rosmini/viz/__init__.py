@@ -13,24 +13,20 @@ from rosmini.viz.view import Picture, View, ViewError, matplotlib_picture
 if TYPE_CHECKING:
     from rosmini.viz.byte_maps import byte_map
     from rosmini.viz.galleries import grid
-    from rosmini.viz.image_pictures import image_picture
     from rosmini.viz.parameter_trees import parameter_tree
     from rosmini.viz.plots import plot
     from rosmini.viz.rqt.bag import rqt_bag
     from rosmini.viz.rqt.graph import rqt_graph
-    from rosmini.viz.rqt.graph_state import GraphState
     from rosmini.viz.sequences import sequence_diagram
     from rosmini.viz.state_machine import action_states
 
 __all__ = [
-    "GraphState",
     "Picture",
     "View",
     "ViewError",
     "action_states",
     "byte_map",
     "grid",
-    "image_picture",
     "matplotlib_picture",
     "parameter_tree",
     "plot",
@@ -40,12 +36,10 @@ __all__ = [
 ]
 
 _LATER = {
-    "GraphState": "rosmini.viz.rqt.graph_state",
     "rqt_graph": "rosmini.viz.rqt.graph",
     "action_states": "rosmini.viz.state_machine",
     "byte_map": "rosmini.viz.byte_maps",
     "grid": "rosmini.viz.galleries",
-    "image_picture": "rosmini.viz.image_pictures",
     "parameter_tree": "rosmini.viz.parameter_trees",
     "plot": "rosmini.viz.plots",
     "rqt_bag": "rosmini.viz.rqt.bag",

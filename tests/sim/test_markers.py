@@ -6,9 +6,9 @@ import pytest
 from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
 from rosmini.sim.markers import ADD, DELETE, Markers, MarkersError, first_poses, obstacles_of
-from rosmini.sim.models import BURGER, model
+from rosmini.sim.models import BURGER
 from rosmini.sim.recorder import Recorder
-from rosmini.sim.recording import Moved, Recording, RecordingError
+from rosmini.sim.recording import Moved, Recording
 from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, Sphere, Walk, World
 
@@ -112,20 +112,6 @@ def test_several_robots_and_what_moves_are_recorded_from_messages(simulated):
     seen = {o.name: o for o in world.obstacles}
     assert seen["crate"].pose == pytest.approx(now["crate"].pose, abs=0.05)
     assert seen["crate"].pose[0] > 0.6 and seen["rock"].pose == (-2.0, 0.0, 0.0)
-
-
-def test_a_robot_that_comes_later_can_be_added(simulated):
-    graph, simulator = simulated
-    recorder = Recorder(graph, simulator)
-    graph.run(1.0)
-    simulator.spawn("late", "waffle_pi", (-1.0, 1.0, 0.0))
-    recorder.add("late", model("waffle_pi"))
-    graph.run(1.0)
-    recording = recorder.recording()
-    [late] = recording.others
-    assert late.times[0] == pytest.approx(1.0, abs=0.1) and late.times[-1] == recording.times[-1]
-    with pytest.raises(RecordingError, match="late"):
-        recorder.add("late", model("waffle_pi"))
 
 
 def test_states_of_gazebo_tell_where_things_are():

@@ -11,8 +11,8 @@ from rosmini.sim.models import CameraModel
 from rosmini.sim.sensors.rendering import develop, expose
 from rosmini.sim.sensors.scene import Scene, parts_of
 from rosmini.sim.worlds import world
-from rosmini.viz import ViewError, image_picture
-from rosmini.viz.image_pictures import ENCODINGS, pixels_of
+from rosmini.viz import ViewError
+from rosmini.viz.image_pictures import ENCODINGS, image_picture, pixels_of
 
 COLOURS = np.array([[(255, 0, 0), (0, 255, 0)], [(0, 0, 255), (10, 20, 30)]], dtype=np.uint8)
 

@@ -63,8 +63,8 @@ MASS = 10.0
 UNUSED = (
     "alwayson", "blob_return", "ctrl", "debug", "event_queue", "fiducial_key", "fiducial_return", "friction",
     "give_watts", "gui_grid", "gui_move", "gui_nose", "gui_outline", "gravity_return", "joules", "joules_capacity",
-    "kjoules", "kjoules_capacity", "map_resolution", "noblocks", "say", "take_watts", "trail_interval", "trail_length",
-    "update_interval", "watts",
+    "kjoules", "kjoules_capacity", "laser_return", "map_resolution", "noblocks", "say", "take_watts",
+    "trail_interval", "trail_length", "update_interval", "watts",
 )  # fmt: skip
 """Properties of Stage that have no effect here."""
 
@@ -170,7 +170,7 @@ class Maker:
             body=self._body(reader, kind, size),
             colour=self._colour(reader, COLOURS.get(kind, COLOUR)),
             solid=reader.flag("obstacle_return", default=True),
-            seen=self._seen(reader),
+            seen=reader.number("ranger_return", 1.0),
             pushable=reader.flag("gripper_return", default=False),
             mass=reader.number("mass", MASS, minimum=0.0),
             reader=reader,
@@ -190,16 +190,6 @@ class Maker:
             what = f"each side of a size is {EDGE:g} m or more here: {found[0]:g} {found[1]:g} {found[2]:g} becomes"
             self.units.note(reader.place("size"), f"{what} {x:g} {y:g} {z:g}")
         return (x, y, z)
-
-    def _seen(self, reader: Reader) -> float:
-        if reader.find("laser_return") is not None:
-            what = (
-                "Stage 4 knows no laser_return, and nor does this: whether rangers see a thing says ranger_return, "
-                "negative if they do not"
-            )
-            if reader.number("laser_return", 1.0) <= 0:
-                self.units.note(reader.place("laser_return"), what)
-        return reader.number("ranger_return", 1.0)
 
     def _colour(self, reader: Reader, default: str) -> str:
         name = reader.text("color", default)

@@ -119,12 +119,6 @@ class DrivenRobot:
         return str(self._laser.topic)
 
     @property
-    def scan_pose(self) -> Pose:
-        """Pose of the robot at the last laser measurement."""
-        pose: Pose = self._laser.pose
-        return pose
-
-    @property
     def scan_poses(self) -> Floats:
         """Pose of the robot at each beam of the last scan (beams, 3); (1, 3) if all beams were measured at once."""
         poses: Floats = self._laser.seen_from

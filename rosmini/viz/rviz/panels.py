@@ -6,7 +6,6 @@ from collections.abc import Iterable
 
 from .scene import Scene
 from .selection import Picked
-from .tools import Tools
 
 
 class TimePanel:
@@ -30,24 +29,6 @@ class TimePanel:
         return f"ROS Time: {now / 1e9:.2f}\nROS Elapsed: {(now - self._ros_ns) / 1e9:.2f}"
 
 
-def tool_properties(tools: Tools) -> str:
-    """Return the Tool Properties panel: the properties of each tool that has some."""
-    lines = []
-    for tool in tools:
-        if tool.properties:
-            lines.append(tool.label)
-            lines += [f"  {each.name}: {_written(tool[each.name])}" for each in tool.properties]
-    return "\n".join(lines)
-
-
 def selection(found: Iterable[Picked]) -> str:
     """Return the text of the Selection panel."""
     return "\n".join(each.words() for each in found) or "nothing is selected"
-
-
-def _written(value: object) -> str:
-    if isinstance(value, float):
-        return f"{value:.6g}"
-    if isinstance(value, tuple):
-        return "; ".join(_written(each) for each in value)
-    return str(value)

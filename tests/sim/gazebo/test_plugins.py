@@ -161,4 +161,3 @@ def test_tags_are_read_and_checked():
         Some.read(parse("<p/>"), complaints.append)
     with pytest.raises(MarkupError, match="is not a number"):
         Some.read(parse("<p><name>n</name><size>big</size></p>"), complaints.append)
-    assert Some.table()[1] == ("size", "float", "1.5", "m", "how large")

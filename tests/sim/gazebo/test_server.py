@@ -189,8 +189,6 @@ def test_a_client_shows_the_world_of_the_server(graph):
     there.drive("/cmd_vel", 0.2)
     graph.run(2.0)
     assert "robot at (0.3" in client.text
-    assert client.statistics is not None
-    assert client.statistics.iterations > 1500
     there.call("delete_model", "gazebo_msgs/DeleteModel", model_name="robot")
     graph.run(0.0)
     assert "robot" not in client.models

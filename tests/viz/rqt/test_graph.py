@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from rosmini.core.errors import RosminiError
 from rosmini.core.graph.master import Master
-from rosmini.viz import GraphState, ViewError, rqt_graph
+from rosmini.viz import ViewError, rqt_graph
+from rosmini.viz.rqt.graph_state import GraphState
 from rosmini.viz.rqt.selection import matches
 
 SVG = "{http://www.w3.org/2000/svg}"

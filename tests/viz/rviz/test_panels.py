@@ -1,7 +1,6 @@
 """Panels as text."""
 
-from rosmini.viz.rviz.panels import TimePanel, selection, tool_properties
-from rosmini.viz.rviz.tools import Tools
+from rosmini.viz.rviz.panels import TimePanel
 
 
 def test_the_time_panel_counts_from_the_last_reset(stage):
@@ -31,10 +30,3 @@ def test_a_reset_forgets_what_was_received(stage, statuses):
     stage.graph.run(0.1)
     assert not scene.update()[0].primitives
     assert scan.message_count == 0 or "Topic" in statuses(scan)
-
-
-def test_tools_say_what_can_be_set(stage):
-    text = tool_properties(Tools(stage.scene()))
-    assert "2D Nav Goal\n  Topic: /move_base_simple/goal" in text
-    assert "2D Pose Estimate\n  Topic: /initialpose\n  X std deviation: 0.5" in text
-    assert selection([]) == "nothing is selected"
