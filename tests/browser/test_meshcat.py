@@ -50,7 +50,7 @@ def two_in_gazebo():
         server = GazeboServer(graph.node("gazebo"), world="empty")
         for i, name in enumerate(("a", "b")):
             server.spawn(burger, name, (0.0, 0.3 * i, 0.0), namespace=name)
-        return server.show3d(focus="a", distance=1.2)
+        return server.show3d()
 
 
 def layered():

@@ -13,7 +13,6 @@ from rosmini import Graph
 from rosmini.sim.gazebo import GazeboServer
 from rosmini.sim.gazebo.spawning import spawn_text
 from rosmini.sim.urdf.xacro import expand
-from rosmini.viz.view import ViewError
 
 WALLS = """<sdf version="1.6"><world name="yard">
   <model name="ground"><static>1</static><link name="l">
@@ -132,16 +131,3 @@ def test_what_looks_other_than_it_is_solid_is_drawn_by_its_visuals(server):
     tilt = view.scene.transform("models/lamp/l")
     assert tilt[2, 2] == pytest.approx(math.cos(0.3))
     assert view.svg.count("<path") > 20
-
-
-def test_the_camera_goes_to_a_model(server):
-    add(server, "burger", "tb3", (1.7, 0.5, 0.0))
-    camera = server.show3d(focus="tb3").scene.camera
-    assert np.allclose(camera.target[:2], (1.7, 0.5), atol=0.05)
-    assert camera.distance < 1
-    assert camera.position[0] < 1.95  # not behind the wall, which is ahead of the robot
-    assert server.show3d(focus="tb3", distance=3, azimuth=10, elevation=70).scene.camera.azimuth == 10
-    with pytest.raises(ViewError, match=r"not 'tb4'.*tb3"):
-        server.show3d(focus="tb4")
-    with pytest.raises(ViewError, match="above 0, not -1"):
-        server.show3d(focus="tb3", distance=-1)

@@ -137,11 +137,6 @@ class Pictured(ABC):
         """Return a picture of the world in three dimensions.
 
         Options and their defaults:
-            focus='world': the target of the camera: 'world', or the name of a model
-            collisions=False: show collision shapes instead of visuals
-            distance=None: of the camera from its target [m]; None: chosen automatically
-            azimuth=None: direction of the camera [deg], 0: from the side of x, 90: of y; None: chosen automatically
-            elevation=None: elevation of the camera [deg]; None: chosen automatically
             title=None: a caption under the picture, and the first words of its text form
             height=420: of the viewer [CSS px]
         """

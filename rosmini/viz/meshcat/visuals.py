@@ -1,4 +1,4 @@
-"""The visuals or the collision shapes of the links of a Gazebo model, as surfaces."""
+"""The visuals of the links of a Gazebo model, as surfaces."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from rosmini.core.geometry.polygons import area
 from rosmini.core.geometry.products import matrix_product, norm
 from rosmini.sim.gazebo.snapshot import ShownLink, ShownModel
-from rosmini.sim.sdf import SdfCollision, SdfGeometry, SdfVisual
+from rosmini.sim.sdf import SdfGeometry, SdfVisual
 from rosmini.sim.sdf.poses import matrix
 from rosmini.sim.urdf import Box, Cylinder, Sphere
 from rosmini.sim.urdf.meshes import Surface, read
@@ -18,14 +18,12 @@ from rosmini.sim.urdf.meshes import Surface, read
 from .links import hex_colour, merged, surfaces_of, upright
 from .solids import Floats
 
-SOLID = "#e69e00"
-"""The colour of collision shapes, as in Gazebo's View menu."""
 SAME = 1e-6
 FLAT = 0.01
 """A level plane within this height [m] of 0 counts as the ground."""
 
 
-def surfaces(link: ShownLink, place: Floats, *, collisions: bool = False, without: Iterable[str] = ()) -> list[Surface]:
+def surfaces(link: ShownLink, place: Floats, *, without: Iterable[str] = ()) -> list[Surface]:
     """Return the visible surfaces of a link at `place` (4, 4) in the world, in its own frame: one per colour.
 
     The material of a visual overrides the colours of a mesh file, as in Gazebo. Surfaces of a file in a colour of
@@ -33,9 +31,8 @@ def surfaces(link: ShownLink, place: Floats, *, collisions: bool = False, withou
     """
     found: dict[str, list[Surface]] = {}
     left_out = frozenset(without)
-    pieces: tuple[SdfVisual | SdfCollision, ...] = link.collisions if collisions else link.visuals
-    for piece in pieces:
-        colour = _rgba(SOLID) if collisions else colour_of(piece)
+    for piece in link.visuals:
+        colour = colour_of(piece)
         if _is_ground(piece, place):
             continue
         for surface in _shape(piece.geometry):
@@ -52,12 +49,12 @@ def _rgba(colour: str) -> tuple[float, float, float, float]:
     return (red, green, blue, 1.0)
 
 
-def colour_of(piece: SdfVisual | SdfCollision) -> tuple[float, float, float, float] | None:
+def colour_of(piece: SdfVisual) -> tuple[float, float, float, float] | None:
     """Return the colour of the visual's own material, if it has one."""
-    return None if isinstance(piece, SdfCollision) or piece.colour is None else _rgba(piece.colour)
+    return None if piece.colour is None else _rgba(piece.colour)
 
 
-def _is_ground(piece: SdfVisual | SdfCollision, place: Floats) -> bool:
+def _is_ground(piece: SdfVisual, place: Floats) -> bool:
     if piece.geometry.kind != "plane":
         return False
     at = matrix_product(place, matrix(piece.pose))
