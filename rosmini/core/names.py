@@ -18,7 +18,6 @@ ROS_RELEASE = {"ROS_VERSION": "1", "ROS_DISTRO": "noetic", "ROS_PYTHON_VERSION":
 
 GRAPH_NAME = re.compile(r"(?:[~/A-Za-z][A-Za-z0-9_/]*)?")
 BASE_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
-PACKAGE_RESOURCE = re.compile(r"([A-Za-z][A-Za-z0-9_-]*)/([A-Za-z][A-Za-z0-9_]*)")
 REMAPPING = re.compile(r"[~/A-Za-z_][\w/]*:=.*")
 
 
@@ -57,22 +56,6 @@ def is_legal_base_name(name: str | None) -> bool:
     Raises ``TypeError`` for any other value that is not a str.
     """
     return name is not None and BASE_NAME.fullmatch(name) is not None
-
-
-def split_resource_name(name: str, package: str | None = None) -> tuple[str, str]:
-    """Split a package resource name: ``"std_msgs/String"`` is ``("std_msgs", "String")``.
-
-    A name without a package belongs to ``package``. Raises ``IllegalName`` for any other name that is not a package and
-    a name, separated by one slash.
-    """
-    full = f"{package}/{name}" if package is not None and isinstance(name, str) and "/" not in name else name
-    match = PACKAGE_RESOURCE.fullmatch(full) if isinstance(full, str) else None
-    if match is None:
-        raise IllegalName(
-            f"{name!r} is not a package resource name: write package/Type, such as std_msgs/String "
-            "(letters, digits and '_')"
-        )
-    return match[1], match[2]
 
 
 def _illegal(name: object, what: str, *, first: str, rest: str, rule: str) -> IllegalName:

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from rosmini.core import names
 from rosmini.core.errors import IllegalName, ROSInitException
-from rosmini.core.names import Remappings, resolve, split_resource_name
+from rosmini.core.names import Remappings, resolve
 
 
 def test_without_a_node_there_are_no_private_names() -> None:
@@ -77,11 +77,3 @@ def test_an_empty_target_says_nothing() -> None:
 def test_arguments_that_mean_nothing(argument: str) -> None:
     with pytest.raises(ROSInitException, match="invalid"):
         Remappings.from_argv([argument])
-
-
-def test_package_resource_names() -> None:
-    assert split_resource_name("std_msgs/String") == ("std_msgs", "String")
-    assert split_resource_name("String", "std_msgs") == ("std_msgs", "String")
-    for wrong in ("String", "/String", "a/b/C", "std_msgs/", "", None):
-        with pytest.raises(IllegalName, match="package/Type"):
-            split_resource_name(wrong)

@@ -398,14 +398,6 @@ class Node:
         """Return the names of all parameters, sorted."""
         return self.parameters.names()
 
-    def on_param(self, name: str, callback: Callable[[Any], object]) -> Any:
-        """Call ``callback(value)`` when a parameter changes; return its current value. See `ParameterClient.watch`."""
-        return self.parameters.watch(name, callback)
-
-    def off_param(self, name: str, callback: Callable[[Any], object] | None = None) -> None:
-        """Undo :meth:`on_param`, for one callback or all. Raises ``ParameterError`` if no such callback exists."""
-        self.parameters.unwatch(name, callback)
-
     # -- names ---------------------------------------------------------------------------------------------------
 
     def resolve(self, name: str) -> str:

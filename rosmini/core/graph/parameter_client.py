@@ -4,25 +4,11 @@ from __future__ import annotations
 
 import math
 from datetime import datetime
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from rosmini.core.errors import (
-    ParameterError,
-    ParameterNotSet,
-    ParameterOverflow,
-    ParameterTypeError,
-    ROSException,
-    nearest,
-)
-from rosmini.core.names import canonicalize
-
-from .parameters import wire_copy
+from rosmini.core.errors import ParameterError, ParameterNotSet, ParameterOverflow, ParameterTypeError, nearest
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from .lanes import Lane
     from .node import Node
 
 UNSET: Any = object()
@@ -94,11 +80,6 @@ def expected(name: str, value: Any, kinds: tuple[type, ...], wanted: str = "") -
     raise ParameterError(msg)
 
 
-def _is_in(name: str, tree: str) -> bool:
-    """Return True if a canonical name is ``tree`` or is inside it."""
-    return name == tree or name.startswith(tree.rstrip("/") + "/")
-
-
 class ParameterClient:
     """A node's access to the Parameter Server; :class:`~rosmini.core.graph.node.Node` has short names for it.
 
@@ -107,9 +88,6 @@ class ParameterClient:
 
     def __init__(self, node: Node) -> None:
         self._node = node
-        self._callbacks: dict[str, list[Callable[[Any], object]]] = {}
-        self._reported_values: dict[str, Any] = {}
-        self._lane: Lane | None = None
 
     def get(self, name: str, default: Any = UNSET, *, expect: type | tuple[type, ...] | None = None) -> Any:
         """Return a parameter's value, or ``default`` if it is not set.
@@ -146,7 +124,6 @@ class ParameterClient:
         code, status, _ = self._node.master.call("setParam", resolved, check_value(resolved, value))
         if code != 1:
             raise ParameterError(status)
-        self._note()
 
     def has(self, name: str) -> bool:
         """Return True if a parameter, or a tree of them, is set."""
@@ -157,7 +134,6 @@ class ParameterClient:
         resolved = self._node.resolve_parameter(name)
         if self._node.master.call("deleteParam", resolved)[0] != 1:
             raise ParameterNotSet(self._not_set(name, resolved))
-        self._note()
 
     def search(self, name: str) -> str | None:
         """Return the full name of the nearest parameter, searching upwards from the node's namespace, or None."""
@@ -167,96 +143,3 @@ class ParameterClient:
     def names(self) -> list[str]:
         """Return the names of all parameters, sorted."""
         return sorted(self._node.master.ask("getParamNames"))
-
-    def watch(self, name: str, callback: Callable[[Any], object]) -> Any:
-        """Call ``callback(value)`` when a parameter, or any parameter in a tree, changes; return its current value.
-
-        ``{}`` means that the parameter is not set, as in ROS. The node is not notified of values that it sets
-        itself, and setting a parameter to its current value is not a change. Raises ``ROSException`` if the Master
-        refuses.
-        """
-        resolved = self._node.resolve_parameter(name)
-        if not self._callbacks:
-            self._node.on_shutdown(self._leave)
-        key = canonicalize(resolved)
-        callbacks = self._callbacks.setdefault(key, [])
-        callbacks.append(callback)
-        try:
-            value = self._node.master.register("subscribeParam", self._node.uri, resolved, warn=self._node.logerr)
-        except ROSException:
-            callbacks.remove(callback)
-            raise
-        self._reported_values.setdefault(key, value)
-        return wire_copy(value)
-
-    def unwatch(self, name: str, callback: Callable[[Any], object] | None = None) -> None:
-        """Undo :meth:`watch`: for one callback, or for all of a parameter.
-
-        Raises ``ParameterError`` if no such callback exists.
-        """
-        resolved = canonicalize(self._node.resolve_parameter(name))
-        callbacks = self._callbacks.get(resolved, [])
-        if not callbacks or (callback is not None and callback not in callbacks):
-            hint = nearest(resolved, self._callbacks)
-            msg = f"node {self._node.name} has no such callback for changes of parameter {resolved}"
-            raise ParameterError(f"{msg}; {hint}" if hint else msg)
-        kept = list(callbacks)
-        if callback is not None:
-            kept.remove(callback)
-        if callback is not None and kept:
-            self._callbacks[resolved] = kept
-            return
-        del self._callbacks[resolved]
-        self._reported_values.pop(resolved, None)
-        self._node.master.unregister("unsubscribeParam", self._node.uri, resolved, warn=self._node.logwarn)
-
-    @property
-    def watched(self) -> list[str]:
-        """The parameters for which :meth:`watch` was called."""
-        return list(self._callbacks)
-
-    def watches(self, key: str) -> bool:
-        """Return True if :meth:`watch` was called for this parameter or for a namespace that contains it."""
-        return any(_is_in(canonicalize(key), name) for name in self.watched)
-
-    def changed(self, key: str, value: Any) -> None:  # noqa: ARG002 - the Master sends it
-        """Call the callbacks if a parameter whose change the Master has reported has a new value.
-
-        The Master reports once for each subscription, so one change may be reported several times, and the value may
-        have changed again since then.
-        """
-        if self._lane is None:
-            self._lane = self._node.spawn(f"{self._node.name} parameters")
-        self._lane.submit(partial(self._report_change, canonicalize(key)))
-
-    def _report_change(self, changed: str) -> None:
-        for name in list(self._callbacks):
-            if not _is_in(changed, name):
-                continue
-            now = self._value_now(name)
-            callbacks = self._callbacks.get(name, [])
-            if repr(self._reported_values.get(name, UNSET)) == repr(now):  # 1, 1.0 and True are equal, but not the same
-                continue
-            self._reported_values[name] = now
-            for callback in callbacks:
-                self._call_in_lane(name, callback, wire_copy(now))
-
-    def _value_now(self, name: str) -> Any:
-        code, _, value = self._node.master.insist("getParam", name, warn=self._node.logerr)
-        return value if code == 1 else {}
-
-    def _note(self) -> None:
-        """Treat the values that this node has just set as reported, because the Master does not report them to it."""
-        for name in list(self._callbacks):
-            self._reported_values[name] = self._value_now(name)
-
-    def _call_in_lane(self, name: str, callback: Callable[[Any], object], value: Any) -> None:
-        self._node.spawn(
-            f"{self._node.name} parameter {name}",
-            partial(self._node.guarded, callback, value, what=f"parameter {name}"),
-        )
-
-    def _leave(self) -> None:
-        """Remove all parameter subscriptions at the Master when the node shuts down."""
-        for name in list(self._callbacks):
-            self.unwatch(name)

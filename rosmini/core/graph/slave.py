@@ -177,14 +177,8 @@ class SlaveApi:
         return [1, "publications", [list(pair) for pair in self._published.items()]]
 
     def paramUpdate(self, caller_id: str, parameter_key: str, parameter_value: Any) -> Triple:
-        """Handle a notice that a parameter has changed; the code is -1 if the node does not subscribe to it."""
-        problem = _name_problem("parameter_key", parameter_key)
-        if problem:
-            return [-1, problem, 0]
-        if not self._node.parameters.watches(parameter_key):
-            return [-1, "not subscribed", 0]
-        self._post(lambda: self._node.parameters.changed(parameter_key, parameter_value))
-        return [1, "", 0]
+        """Refuse a notice that a parameter has changed: no node of this process subscribes to parameters."""
+        return [-1, _name_problem("parameter_key", parameter_key) or "not subscribed", 0]
 
     def publisherUpdate(self, caller_id: str, topic: str, publishers: list[str]) -> Triple:
         """Handle a notice that the publishers of a topic have changed: ``publishers`` are their URIs now."""

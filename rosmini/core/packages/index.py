@@ -109,10 +109,6 @@ class PackageIndex:
             self._packages[name] = read_package(folder)
         return self._packages[name]
 
-    def duplicates(self) -> dict[str, list[Path]]:
-        """Return the folders of each package that was found more than once, by name; the first folder is used."""
-        return {name: paths for name, paths in sorted(self._folders().items()) if len(paths) > 1}
-
     def resolve(self, url: str) -> Path:
         """Return the file or folder of ``package://name/path`` (http://wiki.ros.org/resource_retriever).
 

@@ -242,8 +242,6 @@ class Online:
             self._ask(port, "unregisterSubscriber", node.name, topic, node.uri)
         for topic in node.publications:
             self._ask(port, "unregisterPublisher", node.name, topic, node.uri)
-        for key in node.parameters.watched:
-            self._ask(port, "unsubscribeParam", node.name, node.uri, key)
 
     def _ask(self, port: MasterPort, method: str, *arguments: Any) -> None:
         """Call the Master, unless an earlier call was not answered."""

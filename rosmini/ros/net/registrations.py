@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 
 def register_again(node: Node) -> None:
-    """Register the publishers, subscribers, services and watched parameters of a node.
+    """Register the publishers, subscribers and services of a node.
 
     It may park the calling lane, and retries while the Master does not answer and the node runs. Raises
     ``ROSException`` if the Master refuses.
@@ -29,7 +29,3 @@ def register_again(node: Node) -> None:
     for name, server in list(node.services.items()):
         if node.services.get(name) is server and node.shutdown_reason is None:
             master.register("registerService", name, services_at, node.uri, warn=warn)
-    for key in node.parameters.watched:
-        if node.shutdown_reason is None:
-            value = master.register("subscribeParam", node.uri, key, warn=warn)
-            node.parameters.changed(key, value)

@@ -19,7 +19,7 @@ class Console:
 
     Args:
         scheduler: the graph's scheduler, which continues while a script waits for input.
-        stdin: a text, pieces of text with the second at which each arrives, a file, a function that returns a line, or
+        stdin: a text, pieces of text with the second at which each arrives, a file, or
             None for the host's; or a :class:`~rosmini.ros.scripts.stdin.Feed`.
         stdout: stream for output; by default the host's.
         stderr: stream for errors and warnings; by default the host's.

@@ -121,8 +121,8 @@ def run_scripts(
         graph: run in this graph and keep it; by default in a new one.
         rate: in wall-clock time, seconds of graph time per second (ignored with ``graph``).
         seed: seed of the scripts' random numbers in simulated time.
-        stdin: the scripts' standard input: a text, pieces of text with the second at which each arrives, a file, a
-            function that returns a line, or None for the host's.
+        stdin: the scripts' standard input: a text, pieces of text with the second at which each arrives, a file,
+            or None for the host's.
         stdout: stream for output; by default the host's.
         stderr: stream for errors and warnings; by default the host's.
         prefix: put ``[name]`` before each line.

@@ -123,23 +123,6 @@ class SuppliedFeed(Feed):
         return bool(self._text) or self._ended
 
 
-class CallableFeed(Feed):
-    """Lines from a function, such as a notebook's ``input``; it may block the graph while the user types."""
-
-    def __init__(self, ask: Callable[[], str]) -> None:
-        super().__init__()
-        self._ask = ask
-
-    def _fill(self, who: Blocker) -> None:  # noqa: ARG002
-        try:
-            self._text += self._ask() + "\n"
-        except EOFError:
-            self._ended = True
-
-    def _await(self, who: Blocker, timeout_ns: int | None) -> bool:  # noqa: ARG002
-        return True
-
-
 class HostFeed(Feed):
     """The host's standard input, shared by the scripts of a run: the first reader gets the next line."""
 
@@ -325,13 +308,11 @@ class ScriptInput(io.TextIOBase):
 
 
 def make_feed(scheduler: Scheduler, stdin: Any) -> Feed:
-    """Return the feed for ``stdin``: a text, timed pieces of text, a file, a function, or None for the host's."""
+    """Return the feed for ``stdin``: a text, timed pieces of text, a file, or None for the host's."""
     if stdin is None:
         return _host_feed(scheduler, sys.stdin) if sys.stdin is not None else SuppliedFeed(scheduler, "")
     if isinstance(stdin, Feed):
         return stdin
-    if callable(stdin):
-        return CallableFeed(stdin)
     if hasattr(stdin, "readline"):
         return _host_feed(scheduler, stdin)
     return SuppliedFeed(scheduler, stdin)

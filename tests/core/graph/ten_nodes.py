@@ -46,7 +46,6 @@ def record() -> list[Any]:
                     node.set_param("~last", total)
 
             node.subscriber(f"raw{number % 2}", Int32, callback, queue_size=1)
-            logger.on_param(f"/filter{number}/last", lambda value: note("parameter", value))
         logger.subscriber("out", String, lambda message: note("out", message.data))
         logger.subscriber("/rosout_agg", graph.log_class, lambda message: note("log", message.msg))
 

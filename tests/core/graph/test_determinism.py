@@ -21,7 +21,7 @@ def test_two_runs_in_one_process_are_equal(capsys: pytest.CaptureFixture[str]) -
     capsys.readouterr()
     assert first == second
     kinds = {event[1] for event in first if len(event) == 3}
-    assert kinds == {"names", "out", "parameter", "log"}
+    assert kinds == {"names", "out", "log"}
     assert len(first) > 1000
     times = [event[0] for event in first]
     assert times == sorted(times)

@@ -383,9 +383,3 @@ def test_built_in_nodes_come_from_entry_points(
         own.find_executable("only_pip", "nodes")
     with pytest.raises(ScriptError, match="is a file"):
         index.find_executable("talk", "talker.py").load()
-
-
-def test_duplicates_are_told_in_the_order_of_the_search(tmp_path: Path) -> None:
-    first, second = make(tmp_path / "b" / "twice", "twice"), make(tmp_path / "a" / "deep" / "twice", "twice")
-    make(tmp_path / "once", "once")
-    assert PackageIndex([tmp_path]).duplicates() == {"twice": [first, second]}
