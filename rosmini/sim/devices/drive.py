@@ -132,9 +132,6 @@ class DifferentialDrive(Device):
             self._transforms = there
             there.join(self)
 
-    steered = False
-    """True if its angular command is the angle of a wheel, as in a car."""
-
     @property
     def commanded_by(self) -> str | None:
         """The topic of its commands, as a global name; None if it has none."""

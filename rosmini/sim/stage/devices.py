@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
@@ -36,15 +35,13 @@ LATE = 1e-9
 class StageBase(DifferentialDrive):
     """A position model: subscribes to `cmd_vel`, publishes `odom`.
 
-    It reaches the commanded velocity at once, within its bounds. For a car linear.x is the speed of its steered wheel
-    and angular.z that wheel's angle; "diff" ignores linear.y. `commanded` is called at each
+    It reaches the commanded velocity at once, within its bounds; "diff" ignores linear.y. `commanded` is called at each
     command.
     """
 
     def __init__(self, host: Host, name: str, robot: StageRobot, names: Names, commanded: Callable[[], None]) -> None:
         self.stage_robot = robot
         self.sideways = robot.drive == "omni"
-        self.steered = robot.drive == "car"
         self._commanded = commanded
         super().__init__(
             host,
@@ -62,8 +59,6 @@ class StageBase(DifferentialDrive):
     def velocity(self, v: float, aside: float, w: float) -> Velocity:
         """Return the velocity for a command."""
         robot = self.stage_robot
-        if robot.drive == "car":
-            v, w = v * math.cos(w), v * math.sin(w) / robot.wheelbase
         if not self.sideways:
             aside = 0.0
         told = (v, aside, w)

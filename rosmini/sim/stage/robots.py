@@ -20,7 +20,7 @@ from .things import Pose4, Thing, moved
 from .values import Reader, Units
 
 Bounds = tuple[float, float]
-Drive = Literal["diff", "omni", "car"]
+Drive = Literal["diff", "omni"]
 
 QUARTER = math.pi / 2
 
@@ -59,8 +59,6 @@ class StageRobot:
     """Its start in the world's frame."""
     size: tuple[float, float, float]
     drive: Drive
-    wheelbase: float
-    """Wheelbase of a car [m]."""
     velocity_bounds: tuple[Bounds, Bounds, Bounds]
     """Minimum and maximum speed ahead, to the left [m/s], and of turning [rad/s]."""
     localization: Literal["gps", "odom"]
@@ -93,8 +91,7 @@ def robot(thing: Thing, number: int, units: Units) -> StageRobot:
     x, y, _, a = thing.at
     origin = reader.several("localization_origin", "llla", thing.at)
     bounds = _bounds(reader)
-    wheelbase = reader.length("wheelbase", 1.0) or 1.0
-    drive = reader.text("drive", "diff", ("diff", "omni", "car"))
+    drive = reader.text("drive", "diff", ("diff", "omni"))
     localization = reader.text("localization", "gps", ("gps", "odom"))
     return StageRobot(
         number=number,
@@ -103,7 +100,6 @@ def robot(thing: Thing, number: int, units: Units) -> StageRobot:
         pose=(x, y, a),
         size=thing.size,
         drive=drive,  # type: ignore[arg-type]  # one of the choices
-        wheelbase=wheelbase,
         velocity_bounds=bounds,
         localization=localization,  # type: ignore[arg-type]
         localization_origin=(origin[0], origin[1], origin[3]),

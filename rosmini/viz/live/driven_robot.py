@@ -111,7 +111,7 @@ class DrivenRobot:
     @property
     def is_differential(self) -> bool:
         """True if the robot moves on two driven wheels, like the robot in a page without a kernel."""
-        return self.model.drive == "differential" and not self.drive.steered
+        return self.model.drive == "differential"
 
     @property
     def scan_topic(self) -> str:

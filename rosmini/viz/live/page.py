@@ -75,7 +75,7 @@ def title(pad: TeleopPad) -> str:
 def static_html(pad: TeleopPad, *, caption: str | None = None) -> str:
     """Return the HTML of a pad that drives its own robot from the current pose; equal bytes for an equal state.
 
-    A robot without two driven wheels (a car, or one that moves sideways) would move differently in the page, so it
+    A robot without two driven wheels, which moves sideways, would move differently in the page, so it
     gets a still picture.
     """
     if pad.shown_robot is not None and not pad.shown_robot.is_differential:

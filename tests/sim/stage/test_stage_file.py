@@ -374,11 +374,11 @@ def test_cameras_are_left_out_and_of_a_ring_of_sonars_all_but_one(world):
 
 def test_bounds_and_odometry(world):
     text = (
-        'drive "car" wheelbase 0.6 localization "odom" localization_origin [1 1 0 90] odom_error [0.1 0.2 '
+        'drive "omni" localization "odom" localization_origin [1 1 0 90] odom_error [0.1 0.2 '
         "0 0.3] velocity_bounds [-0.5 2 0 0 0 0 -45 45]"
     )
     (base,) = world(f"position( {text} )").robots
-    assert (base.drive, base.wheelbase, base.localization) == ("car", 0.6, "odom")
+    assert (base.drive, base.localization) == ("omni", "odom")
     assert base.localization_origin == pytest.approx((1, 1, math.pi / 2))
     assert base.odom_error == pytest.approx((0.1, 0.2, math.radians(0.3)))
     assert base.velocity_bounds[0] == (-0.5, 2)
@@ -414,6 +414,7 @@ def test_what_is_not_possible_names_file_and_line(tmp_path, world, text, words):
         ("model( position( ) )", "model:0.position:0 is on a model"),
         ('position( drive "differential" )', '"diff" is used'),
         ("position( drive 3 )", '"diff" is used'),
+        ('position( drive "car" )', '"diff" is used'),
         ('position( localization "amcl" )', '"gps" is used'),
         ("position( ranger( ) )", "the ranger position:0.ranger:0 has no sensor( ... )"),
         (robot("range [5 1]"), "a ranger measures from 5 m to 1 m; the first is taken for 0"),

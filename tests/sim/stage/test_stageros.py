@@ -224,14 +224,6 @@ def test_an_omnidirectional_base_goes_anywhere(bench):
     assert ours.stage.truth() == pytest.approx((-0.6, 0.2, math.pi / 2), abs=1e-9)
 
 
-def test_a_car_is_steered(bench):
-    ours = bench(ROBOT % 'drive "car" wheelbase 0.5')
-    ours.go(1.0, v=0.4, w=0.3)
-    v, w = 0.4 * math.cos(0.3), 0.4 * math.sin(0.3) / 0.5
-    x, y, theta = ours.stage.truth()
-    assert (x, y, theta) == pytest.approx((v / w * math.sin(w), v / w * (1 - math.cos(w)), w), abs=1e-9)
-
-
 def test_bounds_cut_a_command(bench):
     ours = bench(ROBOT % "velocity_bounds [-0.2 0.4 0 0 0 0 -45 45]")
     ours.listen("odom")
