@@ -27,7 +27,6 @@ from rosmini.ros.bag import (
     changed_types,
     filter_bag,
     fix_bag,
-    merge,
     recompress,
     reindex,
 )
@@ -311,29 +310,6 @@ def reindex_(given: Values, _call: Call) -> Written:
         return f"{done.messages} messages" + "".join(f"\n  {problem}" for problem in done.problems)
 
     return _rewrite(_REINDEX, given, work)
-
-
-def _merge_parser() -> Parser:
-    parser = Parser(
-        "rosbag merge [options] OUTBAG INBAG1 [INBAG2 ...]",
-        "Merge several bags into one, in the order of time.",
-        "merge both.bag first.bag second.bag",
-    )
-    _compression(parser, Compression.NONE)
-    return parser
-
-
-@TOOL.verb("merge several bags into one (not in ROS's own tool)", name="merge", parser=_merge_parser)
-def merge_(given: Values, _call: Call) -> Written:
-    """Merge several bags into one."""
-    if len(given.words) < 2:
-        _merge_parser().error("You must specify an out bag and at least one in bag.")
-    target, *sources = given.words
-    try:
-        copied = merge(sources, target, compression=given.compression)
-    except (ROSBagException, OSError) as error:
-        raise VerbError(f"ERROR: {error}") from None
-    return Written(bags=((Path(target), f"{copied.written} messages of {len(sources)} bags"),))
 
 
 # -- nodes -------------------------------------------------------------------------------------------------------

@@ -143,7 +143,7 @@ while not rospy.is_shutdown():
 """
 
 
-def test_a_notebook_knows_why_and_what_if_and_all_again_is_the_same(notebook):
+def test_a_notebook_knows_why_and_all_again_is_the_same(notebook):
     def run_all():
         notebook.ok("%load_ext rosmini\n%roscore\nimport rosmini")
         notebook.ok(DRIVER)

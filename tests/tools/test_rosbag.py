@@ -65,7 +65,6 @@ def test_the_tools_that_write(bag, capsys):
     assert "Backup path t.orig.bag already exists" in run(capsys, "decompress", "t.bag")[2]
     assert run(capsys, "decompress", "-f", "-q", "t.bag") == (0, "", "")
     assert Bag("t.bag").get_compression_info().compression == "none"
-    assert run(capsys, "merge", "m.bag", "t.bag", "f.bag") == (0, "m.bag: 21 messages of 2 bags\n", "")
 
 
 def test_reindex(bag, capsys):
@@ -132,8 +131,6 @@ def test_playing_to_a_script_and_recording_it(bag):
         (("compress", "--output-dir", "out", "t.bag"), 1, "ERROR writing to out/t.bag: there is no folder out"),
         (("decrypt", "t.bag"), 2, "a bag that GnuPG has encrypted is read by a real ROS with its keys"),
         (("compress",), 2, "You must specify at least one bag file."),
-        (("merge", "m.bag"), 2, "You must specify an out bag and at least one in bag."),
-        (("merge", "m.bag", "none.bag"), 1, "ERROR: "),
     ],
 )
 def test_what_goes_wrong_is_said_and_leaves_nothing(bag, capsys, words, status, said):

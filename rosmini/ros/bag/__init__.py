@@ -21,7 +21,7 @@ from .player import Player
 from .recorder import Recorder, RecordOptions
 from .records import Compression
 from .summary import BagMessage, BagMessageWithConnectionHeader
-from .tools import changed_types, filter_bag, merge, recompress, reindex
+from .tools import changed_types, filter_bag, recompress, reindex
 
 __all__ = [
     "Bag",
@@ -41,7 +41,6 @@ __all__ = [
     "changed_types",
     "filter_bag",
     "fix_bag",
-    "merge",
     "recompress",
     "reindex",
 ]

@@ -1,4 +1,4 @@
-"""Operations of ``rosbag`` on whole bags: filter, merge, compress, reindex, check.
+"""Operations of ``rosbag`` on whole bags: filter, compress, reindex, check.
 
 Connection headers are kept byte for byte.
 """
@@ -112,24 +112,6 @@ def write_whole(target: PathLike, fill: Callable[[Bag], Copied], compression: st
     finally:
         part.unlink(missing_ok=True)
     return result
-
-
-def merge(sources: Iterable[PathLike], target: PathLike, *, compression: str = Compression.NONE) -> Copied:
-    """Write the messages of several bags to one, in time order; connections with the same header become one."""
-    from heapq import merge as merged
-
-    sources = list(sources)
-    for source in sources:
-        two_files(source, target)
-    bags: list[Bag] = []
-    try:
-        bags += [Bag(source) for source in sources]
-        streams = [bag.read_raw() for bag in bags]
-        ordered = merged(*streams, key=lambda message: message.time)
-        return write_whole(target, lambda outbag: copy_messages(ordered, outbag), compression)
-    finally:
-        for bag in bags:
-            bag.close()
 
 
 def recompress(source: PathLike, target: PathLike, compression: str = Compression.BZ2) -> Copied:

@@ -1,7 +1,6 @@
 """A recorded run as a player that needs no server: `replay(recording)`, or `recording.replay()`.
 
 `replay("demo.bag")` plays a bag; a `Run` of bodies and layers plays data that is not in messages.
-`rosmini.viz.replay.time_travel.what_if` repeats a run with a change at one instant.
 """
 
 from __future__ import annotations

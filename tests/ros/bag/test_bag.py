@@ -25,7 +25,6 @@ from rosmini.ros.bag import (
     ROSBagUnindexedException,
     changed_types,
     filter_bag,
-    merge,
     recompress,
     reindex,
 )
@@ -167,13 +166,11 @@ def test_connection_headers_are_kept_to_the_byte(path, tmp_path):
         tool(copies[-1], tmp_path / name, name)
         copies.append(tmp_path / name)
     filter_bag(copies[-1], tmp_path / "f", "True")
-    merge([tmp_path / "f", path], tmp_path / "merged")
-    raws = [[conn.raw for conn in Bag(copy).connections()] for copy in (*copies, tmp_path / "f", tmp_path / "merged")]
+    raws = [[conn.raw for conn in Bag(copy).connections()] for copy in (*copies, tmp_path / "f")]
     assert all(raw == raws[0] for raw in raws)
     assert b"extra=kept" in raws[0][0]
     headers = [header["callerid"] for *_, header in Bag(path).read_messages(return_connection_header=True)]
     assert headers == [b"/talker", b"/other", b"/talker"]
-    assert Bag(tmp_path / "merged").get_message_count() == 6
 
 
 def test_topics_times_and_filters(path):
@@ -450,15 +447,6 @@ def test_an_expression_may_not_do_anything_else(path, tmp_path, expression):
         fill(bag, 1)
     with pytest.raises(FilterError):
         filter_bag(path, tmp_path / "out.bag", expression)
-
-
-def test_merge_orders_by_time(tmp_path):
-    for name, offset in (("a", 0), ("b", 1)):
-        with Bag(tmp_path / name, "w") as bag:
-            for i in range(offset, 10, 2):
-                bag.write("/chatter", String(str(i)), Time(i))
-    assert merge([tmp_path / "b", tmp_path / "a"], tmp_path / "all").written == 10
-    assert texts(Bag(tmp_path / "all")) == [str(i) for i in range(10)]
 
 
 # -- what `rosbag info` prints: as in shared/ros_transcripts, with our own bag
