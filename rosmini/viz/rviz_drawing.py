@@ -43,12 +43,8 @@ def rviz_window() -> Picture:
     parts += [_line(words, 12.0, 104.0 + 18.0 * i) for i, words in enumerate(LISTED) if words]
     parts += [_line(words, 492.0, 104.0 + 18.0 * i) for i, words in enumerate(VIEWED)]
     parts += [_line("Displays", 34.0, 82.0), _line("Views", 514.0, 82.0)]
-    parts += [
-        _line("ROS Time: 12.40   ROS Elapsed: 12.40   Wall Time: ...   Wall Elapsed: ...   [ Reset ]", 34.0, 364.0)
-    ]
-    numbers = ((SCENE, 190.0, 82.0), (DISPLAYS, 16.0, 78.0), (MENU, 16.0, 14.0), (TOOLS, 16.0, 45.0))
-    places = [(x, y) for _, x, y in numbers] + [(496.0, 78.0), (16.0, 360.0)]
-    parts += [_number(i, *place) for i, place in enumerate(places, 1)]
+    parts += [_line(TIMES, 34.0, 364.0)]
+    parts += [_number(i, *place) for i, place in enumerate(NUMBERS, 1)]
     names = "3D view, Displays, menu, tools, Views, Time"
     return diagram(parts, Layout(WIDTH, HEIGHT), "The window of RViz", names, ALT)
 
@@ -59,8 +55,9 @@ def _line(words: str, x: float, y: float) -> str:
 
 
 def _number(number: int, x: float, y: float) -> str:
-    circle = element("circle", cx=x, cy=y, r=10.0, fill=style.LIGHT["topic-fill"], stroke=style.LIGHT["topic-line"])
-    return circle + text(str(number), x, y + 4.5, kind="ps-name")
+    """Return a number in a circle, in the colours of the page."""
+    circle = box(Rect(x - 10.0, y - 10.0, 20.0, 20.0), "topic", 10.0)
+    return element("g", circle + text(str(number), x, y + 4.5, kind="ps-name"), class_="ps-topic")
 
 
 def _scene() -> str:

@@ -133,6 +133,7 @@ def trail(answer: Script) -> Any:
         ear.subscriber("visualization_marker", Marker, heard.append)
         trial.start(answer)
         trial.run(8.0)
+        trial.expect_no_errors()
         expect(heard, "There was no marker on /visualization_marker.", "publish in the callback")
         last = heard[-1]
         expect(
