@@ -131,17 +131,8 @@ def test_a_reader_that_gets_nothing_is_ended(run):
     assert ran.status == 0
 
 
-def test_input_from_a_function_and_from_a_file(run):
-    answers = iter(["a", "b"])
-
-    def ask():
-        try:
-            return next(answers)
-        except StopIteration:
-            raise EOFError from None
-
+def test_input_from_a_file(run):
     source = "import sys\nprint([line.strip() for line in sys.stdin])"
-    assert run(source, stdin=ask).lines == ["[script] ['a', 'b']"]
     assert run(source, stdin=io.StringIO("x\ny\n")).lines == ["[script] ['x', 'y']"]
 
 
