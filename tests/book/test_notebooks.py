@@ -94,10 +94,8 @@ def test_a_fence_at_the_start_of_a_line_is_accepted():
 @pytest.mark.parametrize("info", [{"name": "python"}, notebooks.LANGUAGE | {"version": "3.11.7"}])
 def test_the_metadata_of_the_notebook(info):
     nb = notebook(code("x"), language_info=info, widgets={})
-    assert list(notebooks.problems(nb)) == [
-        "the notebook's metadata has widgets",
-        "the notebook's language_info is not the one that `clean` stores",
-    ]
+    widgets, language = notebooks.problems(nb)
+    assert "widgets" in widgets and "language_info" in language
     notebooks.clean(nb)
     assert list(notebooks.problems(nb)) == []
 

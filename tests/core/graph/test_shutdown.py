@@ -124,7 +124,7 @@ def test_a_blocked_call_ends_when_its_node_is_shut_down(graph: Graph, block: Cal
     until(graph, lambda: lane.waiting_for is not None)
     node.shutdown("enough")
     until(graph, lambda: ended)
-    assert ended == ["node /node was shut down: enough"]
+    assert len(ended) == 1 and "/node " in ended[0] and ended[0].endswith(": enough")
 
 
 def test_spin_returns_when_the_node_is_shut_down(graph: Graph) -> None:

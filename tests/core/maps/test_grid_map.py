@@ -47,7 +47,7 @@ def test_masks_and_names():
     assert grid.free.sum() == 3
     assert grid.occupied.tolist() == [[False, True, False], [False] * 3]
     assert grid.unknown.tolist() == [[False, False, True], [False] * 3]
-    assert repr(grid) == "<GridMap: 3 x 2 cells of 0.5 m>"
+    assert "3 x 2 cells of 0.5 m" in repr(grid)
 
 
 def test_a_message_has_all_of_it():

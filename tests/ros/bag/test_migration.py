@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from rosmini.core.time import Time
-from rosmini.msgs.geometry_msgs.msg import PolygonStamped
+from rosmini.msgs.geometry_msgs.msg import Polygon, PolygonStamped
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.ros.bag import Bag, ROSBagException, fix_bag
 from rosmini.ros.bag.migration import differences, migrated
@@ -76,7 +77,9 @@ def test_what_does_not_go_together_is_named_and_nothing_is_written(tmp_path: Pat
     target = tmp_path / "new.bag"
     fixed = fix_bag(source, target)
     assert fixed.copied is None
-    assert list(fixed.obstacles.values()) == [("the field data was int32 and is string", "the field lost is gone")]
+    [(changed, gone)] = fixed.obstacles.values()
+    assert re.findall("data|int32|string", changed) == ["data", "int32", "string"]
+    assert re.findall("data|lost", gone) == ["lost"]
     assert [path.name for path in tmp_path.iterdir()] == ["old.bag"]
     assert fix_bag(source, target, force=True).copied == (1, 1)
     with Bag(target) as bag:
@@ -98,9 +101,9 @@ def test_differences_and_messages() -> None:
     assert differences(String, String) == []
     assert migrated(String("a"), new_field).data == "a"
     array = old("geometry_msgs/Polygon", f"geometry_msgs/Point32 points\n{RULE}\nMSG: geometry_msgs/Point32\nfloat32 x")
-    assert differences(array, PolygonStamped._nested["geometry_msgs/Polygon"]) == [
-        "the field points was geometry_msgs/Point32 and is geometry_msgs/Point32[]"
-    ]
+    (changed,) = differences(array, Polygon)
+    assert "points" in changed
+    assert re.findall(r"geometry_msgs\S+", changed) == ["geometry_msgs/Point32", "geometry_msgs/Point32[]"]
 
 
 def test_a_bag_is_not_written_over_itself(tmp_path: Path) -> None:

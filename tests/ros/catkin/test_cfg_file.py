@@ -123,7 +123,8 @@ def test_a_list_may_be_calculated() -> None:
 def test_a_default_out_of_its_range_is_limited_and_noted_as_servers_do() -> None:
     found = read(HEAD + 'gen.add("count", int_t, 0, "How many", 0, 1, 9)\n' + END)
     assert Description.of(found.tree).defaults == {"count": 1}
-    assert found.notes == [("the default of count, 0, is not in its range, 1 ... 9: servers begin with 1", 5)]
+    [(note, line)] = found.notes
+    assert line == 5 and "count" in note and "1 ... 9" in note
 
 
 WRONG = [

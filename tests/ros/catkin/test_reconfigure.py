@@ -127,6 +127,5 @@ def test_what_is_wrong(bench: Bench, file: str, old: str, new: str, place: str, 
 def test_a_file_without_its_run_bit_is_told_as_a_robot_needs_it(bench: Bench) -> None:
     folder = drive(bench)
     (folder / "cfg/Drive.cfg").chmod(0o644)
-    assert [each.message for each in bench.make().findings] == [
-        f"may not be run, as a real catkin_make does: chmod +x {folder / 'cfg/Drive.cfg'}"
-    ]
+    (finding,) = bench.make().findings
+    assert finding.message.endswith(f"chmod +x {folder / 'cfg/Drive.cfg'}")

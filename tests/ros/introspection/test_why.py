@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 import pytest
@@ -49,11 +50,12 @@ def test_the_whole_chain_is_told_from_the_end_to_the_start(graph: Graph) -> None
     graph.run(1.05)
     (why,) = explain(history(graph), "/cmd_vel")
     lines = str(why).splitlines()
-    assert [line for line in lines if not line.startswith("    ")] == [
-        "/stop published message 5 on /cmd_vel: all 0, at 1001.000 s",
-        "because /stop got message 5 on /scan from /laser, at 1001.000 s",
-        "because /laser published message 5 on /scan, at 1001.000 s",
-        "and /laser did that because its timer tick was due",
+    told = [re.findall(r"/\w+|message \d+|timer|[\d.]+ s$", line) for line in lines if not line.startswith("    ")]
+    assert told == [
+        ["/stop", "message 5", "/cmd_vel", "1001.000 s"],
+        ["/stop", "message 5", "/scan", "/laser", "1001.000 s"],
+        ["/laser", "message 5", "/scan", "1001.000 s"],
+        ["/laser", "timer"],
     ]
     assert lines[1].startswith("    test_why.py, line ")
     assert lines[1].endswith(", in on_scan: commands.publish(Twist())")
@@ -67,7 +69,7 @@ def test_the_last_ones_and_the_depth(graph: Graph) -> None:
     assert [why.steps[0].time for why in found] == pytest.approx([1000.6, 1000.8, 1001.0])
     (short,) = explain(history(graph), "/cmd_vel", depth=1)
     assert len(short.steps) == 2
-    assert short.end == "and so on; --depth tells more"
+    assert "--depth" in short.end
 
 
 def test_a_loop_of_its_own_tells_what_it_had_heard(graph: Graph) -> None:
@@ -85,9 +87,10 @@ def test_a_loop_of_its_own_tells_what_it_had_heard(graph: Graph) -> None:
     graph.nodes["/stop"].shutdown()
     graph.run(1.05)
     (why,) = explain(history(graph), "/cmd_vel")
-    assert why.end == "and /loop did that in a program of its own, which no message or call had woken"
-    assert [step.what for step in why.heard] == ["/loop got message 4 on /scan from /laser"]
-    assert "    before that: /loop got message 4 on /scan from /laser, at 1000.800 s" in str(why)
+    assert "/loop" in why.end
+    (heard,) = (step.what for step in why.heard)
+    assert re.findall(r"/\w+|message \d+", heard) == ["/loop", "message 4", "/scan", "/laser"]
+    assert f"before that: {heard}, at 1000.800 s" in str(why)
 
 
 def test_an_unknown_name_is_answered_with_the_nearest(graph: Graph) -> None:
@@ -121,8 +124,7 @@ def test_what_came_over_a_wire_has_no_cause_before_it() -> None:
         talker.publish("hello")
         graph.run(0.1)
         (why,) = explain(history(graph), "/echo")
-    assert [step.what for step in why.steps] == [
-        "/echo published message 1 on /echo: 'hello'",
-        "/echo got a message on /chatter from /talker",
-    ]
-    assert why.end == "and /talker published that before recording began, or it came over a wire"
+    published, got = (step.what for step in why.steps)
+    assert "/echo" in published and "message 1" in published and published.endswith("'hello'")
+    assert re.findall(r"/\w+", got) == ["/echo", "/chatter", "/talker"]
+    assert "/talker" in why.end and "wire" in why.end

@@ -40,7 +40,8 @@ def test_an_unknown_attribute_warns_and_goes_on() -> None:
     """The second listing of the report's chapter 9.5 has `arg=` on a node."""
     plan = plan_of('<node pkg="p" type="t" name="n" arg="--fast"/>')
     assert [node.name for node in plan.nodes] == ["n"]
-    assert plan.warnings == ["<text>:2: unknown <node> attribute 'arg'; did you mean args?"]
+    (warning,) = plan.warnings
+    assert warning.startswith("<text>:2: ") and "'arg'" in warning and warning.endswith("did you mean args?")
 
 
 def test_a_parameter_below_another_one_warns() -> None:
@@ -60,7 +61,8 @@ def test_arguments_are_described() -> None:
 
 def test_an_argument_that_no_file_has_is_told() -> None:
     plan = plan_of('<arg name="model" default="x"/>', args={"modle": "y"})
-    assert plan.warnings == ["no launch file has an arg 'modle'; did you mean model?"]
+    (warning,) = plan.warnings
+    assert "'modle'" in warning and warning.endswith("did you mean model?")
 
 
 def test_everything_that_is_missing_is_named_in_one_list(tmp_path: Path) -> None:
@@ -88,7 +90,7 @@ def test_everything_that_is_missing_is_named_in_one_list(tmp_path: Path) -> None
 
 def test_one_missing_thing_is_named_at_its_place() -> None:
     error = refused('<arg name="model"/>\n<param name="b" value="$(arg model)"/>')
-    assert str(error) == "<text>:3: requires the 'model' arg to be set: give it as model:=VALUE"
+    assert str(error).startswith("<text>:3: requires the 'model' arg to be set") and "model:=" in str(error)
 
 
 def test_an_arg_that_an_include_lacks_is_given_there(tmp_path: Path) -> None:
@@ -97,7 +99,7 @@ def test_an_arg_that_an_include_lacks_is_given_there(tmp_path: Path) -> None:
     inner.write_text(text, encoding="utf-8")
     error = refused(f'<include file="{inner}"/>')
     way = 'give it in the <include> at <text>:2: <arg name="a" value="..."/>'
-    assert str(error) == f"{inner}:1: requires the 'a' arg to be set: {way}"
+    assert str(error).startswith(f"{inner}:1: requires the 'a' arg to be set") and str(error).endswith(way)
 
 
 def test_what_follows_from_what_is_missing_is_not_told_as_well() -> None:

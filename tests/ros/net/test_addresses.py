@@ -113,7 +113,7 @@ def test_any_text_is_an_address_or_a_clear_refusal(text: str) -> None:
 def test_an_address_that_is_not_this_machines_is_told() -> None:
     """203.0.113.0/24 is for examples: nobody has it."""
     (listens, wrong) = addresses({"ROS_IP": "203.0.113.7"}).notes
-    assert listens == "listening on every network of this machine, known to others as 203.0.113.7"
+    assert listens.endswith("203.0.113.7")
     assert addresses({"ROS_IP": "203.0.113.7"}).faults == [wrong]
     assert wrong.startswith("203.0.113.7 is not an address of this machine")
     assert "ROS_IP" in wrong

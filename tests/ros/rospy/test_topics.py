@@ -142,7 +142,7 @@ def test_publishing_after_the_shutdown_is_said_once(programs, log):
         publisher.publish("x")
 
     programs(main)
-    assert log.read().err.count("after node /main was shut down (enough)") == 1
+    assert log.read().err.count("/main was shut down (enough)") == 1
 
 
 @pytest.mark.parametrize("text", ["std_msgs/String", "std_msgs.msg.String", "std_msgs.String"])

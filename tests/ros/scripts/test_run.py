@@ -225,7 +225,8 @@ def test_duration_ends_what_never_ends(run):
 def test_nothing_left_to_happen(sim):
     ran = sim("import threading\nthreading.Event().wait()")
     assert ran.result.reason == "drained"
-    assert [str(waiting) for waiting in ran.result.report.waiting] == ["script was waiting for an event to be set"]
+    (waiting,) = map(str, ran.result.report.waiting)
+    assert waiting.startswith("script ") and "event" in waiting
 
 
 def test_the_same_on_each_run(sim):

@@ -209,7 +209,7 @@ def test_clocks_jump_and_loops_go_on(graph):
     assert len(times) >= 6
     assert len(ticks) >= 5
     graph.faults.jump(2)
-    assert graph.faults.lines()[0] == "/node: its clock is -3 s off"
+    assert "/node: " in graph.faults.lines()[0] and " -3 s " in graph.faults.lines()[0]
     assert other.now().to_sec() == pytest.approx(graph.now().to_sec() + 2)
     graph.faults.clear()
     assert node.now() == other.now() == graph.now()
