@@ -221,7 +221,8 @@ def test_a_robot_in_a_namespace_is_recorded_there(graph):
     graph.run(0.1)
     assert recorder.recording().truth.tolist() == [[1, 0, 0]]
     assert recorder.node.name == "/robot1/recorder"
-    assert repr(recorder) == "<Recorder /robot1/recorder: 1 base_pose_ground_truth, 1 odom, 0 scan, 0 cmd_vel>"
+    for part in ("/robot1/recorder", "1 base_pose_ground_truth", "1 odom", "0 scan", "0 cmd_vel"):
+        assert part in repr(recorder)
 
 
 def test_a_recorder_has_to_know_world_and_robot(graph):

@@ -33,7 +33,8 @@ def test_duration_and_distance_are_those_of_the_real_way():
     run = recording([(0, 0, 0), (3, 4, 0), (3, 4, 1), (3, 5, 1)], odom=np.zeros((4, 3)))
     assert run.duration == pytest.approx(0.3)
     assert run.distance == pytest.approx(6.0)
-    assert repr(run) == "<Recording of square in void: 0.3 s, 4 poses, 0 scans, 0 commands>"
+    for part in ("square", "void", "0.3 s", "4 poses", "0 scans", "0 commands"):
+        assert part in repr(run)
 
 
 def test_drift_is_relative_to_the_start_in_whichever_frame_odometry_began():

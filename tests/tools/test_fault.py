@@ -31,9 +31,9 @@ def fault(graph: Graph, line: str) -> str:
 
 def test_a_topic_is_disturbed_listed_and_cleared(graph: Graph) -> None:
     before = graph.now()
-    assert fault(graph, "chatter --lose 0.5 --double 0.1 --delay 0.1 --jitter 0.2 --seed 3 --to listener") == (
-        "/chatter to /listener: 50% lost, 10% doubled, 0.1 to 0.3 s late (seed 3)"
-    )
+    told = fault(graph, "chatter --lose 0.5 --double 0.1 --delay 0.1 --jitter 0.2 --seed 3 --to listener")
+    for part in ("/chatter to /listener: ", "50% lost", "10% doubled", "0.1 to 0.3 s", "seed 3"):
+        assert part in told
     assert graph.now() == before
     graph.run(2.05)
     line = fault(graph, "list")
@@ -48,10 +48,11 @@ def test_nodes_services_and_clocks(graph: Graph) -> None:
     assert fault(graph, "/it --cut") == "/it is cut off"
     with pytest.raises(ServiceException):
         graph.node("client").service_client("it", Trigger)()
-    assert fault(graph, "clock --jump -5 --to /listener") == "the clock of /listener jumps by -5 s"
-    assert fault(graph, "clock --jump 1") == "the clock of every node jumps by +1 s"
+    for line, parts in (("--jump -5 --to /listener", ("/listener", " -5 s")), ("--jump 1", ("every node", " +1 s"))):
+        told = fault(graph, f"clock {line}")
+        assert all(part in told for part in parts)
     assert "/listener: its clock is -4 s off" in fault(graph, "list")
-    assert fault(graph, "talker --kill") == "/talker was killed; the Master does not know it"
+    assert fault(graph, "talker --kill").startswith("/talker was killed")
     assert graph.unreachable == ("/talker",)
 
 

@@ -76,7 +76,8 @@ def test_version(capsys):
 
 def test_an_unknown_command_suggests_the_nearest(capsys):
     assert cli.main(["bok"]) == 2
-    assert capsys.readouterr().err == "rosmini: there is no command 'bok'; did you mean book?\n"
+    said = capsys.readouterr().err
+    assert said.startswith("rosmini: ") and "'bok'" in said and said.endswith("did you mean book?\n")
 
 
 def test_a_command_unlike_any_leads_to_the_list(capsys):

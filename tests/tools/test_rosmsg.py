@@ -68,7 +68,8 @@ def test_the_results_are_data(tmp_path: Path) -> None:
 
 def test_an_md5_sum_of_nothing() -> None:
     assert run("rosmsg md5 nope/Nope").complaints[0] == "Cannot locate [nope/Nope]"
-    assert run("rosmsg md5 Twits").complaints == ("No messages matching the name [Twits]", "did you mean Twist?")
+    complaint, meant = run("rosmsg md5 Twits").complaints
+    assert "[Twits]" in complaint and "Twist" in meant
 
 
 def test_the_name_may_come_on_standard_input(

@@ -35,7 +35,7 @@ WITH_A_HINT = ["rosnode info /nope", "rosnode ping /nope -c 1", "rosnode kill /n
 def test_what_there_is_to_do_comes_after_what_the_real_one_prints(graph: Graph, line: str) -> None:
     text, status = printed(TOOL, graph, line)
     assert status == REAL[line][1]
-    assert text == REAL[line][0] + "`rosnode list` lists the nodes that there are.\n"
+    assert text.startswith(REAL[line][0]) and "`rosnode list`" in text
 
 
 def test_killing_all_nodes(graph: Graph) -> None:

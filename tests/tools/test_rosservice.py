@@ -54,9 +54,7 @@ def run(graph: Graph, *words: object) -> Any:
 @pytest.mark.parametrize("line", ["rosservice type /nope", "rosservice info /nope", "rosservice call /nope"])
 def test_what_there_is_to_do_comes_after_what_the_real_one_prints(graph: Graph, line: str) -> None:
     text, status = printed(TOOL, graph, line)
-    assert (text, status) == (
-        real(line)[0] + "`rosservice list` lists the services that there are.\n", real(line)[1],
-    )  # fmt: skip
+    assert text.startswith(real(line)[0]) and "`rosservice list`" in text and status == real(line)[1]
     assert printed(TOOL, graph, line.replace("nope", "set_bol"))[0].endswith("did you mean /set_bool?\n")
 
 

@@ -37,7 +37,7 @@ def run(graph: Graph, *words: object) -> Any:
 def test_what_there_is_to_do_comes_after_what_the_real_one_prints(graph: Graph, line: str) -> None:
     text, status = printed(TOOL, graph, line)
     assert status == REAL[line][1]
-    assert text == REAL[line][0] + "`rostopic list` lists the topics that there are.\n"
+    assert text.startswith(REAL[line][0]) and "`rostopic list`" in text
     assert printed(TOOL, graph, line.replace("nope", "chater"))[0].endswith("did you mean /chatter?\n")
 
 

@@ -27,10 +27,9 @@ def test_it_tells_and_draws(graph: Graph, tmp_path: Path) -> None:
     for word in ("one", "two"):
         talker.publish(word)
     result = TOOL.run("-n", "2", "chatter", "--title", "Figure 1", graph=graph)
-    assert [why.steps[0].what for why in result.found] == [
-        "/talker published message 1 on /chatter: 'one'",
-        "/talker published message 2 on /chatter: 'two'",
-    ]
+    for why, number, word in zip(result.found, (1, 2), ("one", "two"), strict=True):
+        told = why.steps[0].what
+        assert f"/talker published message {number} on /chatter" in told and repr(word) in told
     data, _ = result._repr_mimebundle_()
     assert data["text/plain"] == str(result)
     assert "Figure 1" in data["text/html"]

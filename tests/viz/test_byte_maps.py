@@ -28,7 +28,7 @@ def test_a_number_is_shown_in_digits_and_a_text_as_text():
         f"      0  {'05 00 00 00':48} length: 5",
         f"      4  {'h  e  l  l  o':48} data",
     ]
-    assert picture.alt == "Map of 9 bytes in 2 parts: 4 bytes, length: 5; 5 bytes, data."
+    assert "9 bytes in 2 parts: 4 bytes, length: 5; 5 bytes, data" in picture.alt
 
 
 def test_a_long_part_is_cut_and_counted():

@@ -15,8 +15,9 @@ def drawing(program):
 
 def test_what_it_says():
     view = drawing("repeat 4 [fd 100 rt 90]").show(title="Figure 1: a square")
-    assert view.text == "Figure 1: a square: 4 lines, 400 steps\nturtle1 at [0 0], heading 0"
-    assert view.alt == "A drawing by Logo, which grows: 4 lines, 400 steps. turtle1 at [0 0], heading 0."
+    for part in ("4 lines, 400 steps", "turtle1 at [0 0], heading 0"):
+        assert part in view.text and part in view.alt
+    assert view.text.startswith("Figure 1: a square: ")
 
 
 def run_of(view):

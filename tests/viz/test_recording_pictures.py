@@ -42,18 +42,11 @@ def test_the_picture_says_where_from_where_to_and_how_far_odometry_is_off():
     view = recording_picture(recording, title="Round the pillar")
     end = recording.truth[-1]
     off = math.dist(recording.odom_in_map()[-1, :2], end[:2])
-    assert view.text.splitlines() == [
-        "Round the pillar: 1.50 m in 10.0 s",
-        f"burger: start (0.00, 0.00, 0.0 deg), end ({end[0]:.2f}, {end[1]:.2f}, 114.6 deg)",
-        f"odometry: {off:.3f} m and 2.3 deg off at the end",
-        "recorded: 301 poses, 1 scan, 1 command",
-    ]
-    for said in (
-        "a solid line from (0.00, 0.00, 0.0 deg)",
-        "1.50 m long",
-        "dashed line",
-        f"{off:.3f} m and 2.3 deg off",
-    ):
+    off_by = f"{off:.3f} m and 2.3 deg off"
+    ends = f"(0.00, 0.00, 0.0 deg), end ({end[0]:.2f}, {end[1]:.2f}, 114.6 deg)"
+    for said in ("Round the pillar: 1.50 m in 10.0 s", ends, off_by, "301 poses, 1 scan, 1 command"):
+        assert said in view.text
+    for said in ("a solid line from (0.00, 0.00, 0.0 deg)", "1.50 m long", "dashed line", off_by):
         assert said in view.alt
     orange = style.LIGHT["orange"]
     assert sum("dasharray" in p for p in re.findall(rf'<path[^>]*"{orange}"[^>]*>', view.svg)) >= 3  # way, ghost
@@ -61,7 +54,8 @@ def test_the_picture_says_where_from_where_to_and_how_far_odometry_is_off():
 
 def test_the_last_scan_is_drawn_from_where_it_was_taken():
     view = recording_picture(run(), scan=True)
-    assert view.text.splitlines()[-1] == "last scan: 360 of 360 beams hit, nearest 0.50 m ahead (0 deg)"
+    last = view.text.splitlines()[-1]
+    assert "360 of 360 beams" in last and "0.50 m ahead (0 deg)" in last
     assert "In its last scan, 360 of 360 laser beams" in view.alt
     dots = np.array(re.findall(r"M(\S+) (\S+?)h0", view.svg), dtype=float)
     ring = re.search(r"M(\S+) (\S+)C", view.svg)

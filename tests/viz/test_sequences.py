@@ -33,10 +33,13 @@ def test_each_call_is_an_arrow_and_each_answer_one_back():
         "  listener <- talker: TCPROS",
         "  talker -> listener: a message",
     ]
-    assert picture.alt == (
-        "Sequence diagram of listener, Master, talker. listener to Master: registerSubscriber. "
-        "listener to talker: requestTopic. talker to listener: a message."
-    )
+    for said in (
+        "listener, Master, talker",
+        "Master: registerSubscriber",
+        "talker: requestTopic",
+        "listener: a message",
+    ):
+        assert said in picture.alt
 
 
 def test_names_are_text_and_no_markup():

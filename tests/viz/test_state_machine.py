@@ -35,7 +35,7 @@ def test_the_way_of_one_goal_stands_out():
 def test_a_machine_without_an_end():
     picture = state_machine([("day", "dusk", "night"), ("night", "dawn", "day")], title="t")
     assert "final" not in picture.text
-    assert picture.alt == "State machine with the states day, night."
+    assert "day, night" in picture.alt
 
 
 def test_a_picture_begins_at_its_first_state():

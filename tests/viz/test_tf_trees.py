@@ -34,9 +34,8 @@ def test_its_text_says_all():
 
 
 def test_its_alt_text():
-    assert tf_tree(robot()).alt == (
-        "Tree of 5 frames: base_scan, imu_link under base_footprint; odom under map; base_footprint under odom."
-    )
+    for part in ("5 frames", "base_scan, imu_link under base_footprint", "odom under map", "base_footprint under odom"):
+        assert part in tf_tree(robot()).alt
 
 
 def test_parents_are_above_their_children_and_labels_are_there():
@@ -49,7 +48,7 @@ def test_parents_are_above_their_children_and_labels_are_there():
 
 
 def test_no_frame_and_no_tree():
-    assert tf_tree(FrameTree()).alt == "Tree of frames with nothing in it: no transform was received."
+    assert "no transform" in tf_tree(FrameTree()).alt
     assert "(no frame to show)" in tf_tree(FrameTree()).svg
     with pytest.raises(ViewError, match="a dict has no tree"):
         tf_tree({})

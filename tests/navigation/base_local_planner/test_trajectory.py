@@ -36,6 +36,6 @@ def test_the_table_has_the_cheapest_and_one_of_each_that_was_rejected(samples):
 def test_counts_are_by_critic(samples):
     assert samples.counts() == {"obstacle": 1, "generator": 2}
     assert samples.reason(0) == ""
-    assert samples.reason(2) == "obstacle: the footprint meets an obstacle at point 2 of 4"
+    assert samples.reason(2).startswith("obstacle: ") and samples.reason(2).endswith("point 2 of 4")
     assert samples.nearest(0.2, 0.0, -0.4) == 1
     assert len(samples.trajectory(1)) == 3

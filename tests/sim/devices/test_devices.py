@@ -231,8 +231,8 @@ def test_a_camera_that_is_dear_says_so_once_and_only_if_somebody_hears_it(graph,
     stand.hear("image", "sensor_msgs/Image")
     graph.run(0.1)
     warned = capsys.readouterr().err
-    assert warned.count("renders 1920 x 1080 pixels 30 times a second: 62 million pixels") == dear
-    assert ("a lower rate (for example 9.6 Hz)" in warned) == dear
+    assert warned.count("1920 x 1080 pixels 30 times") == warned.count(" 62 million ") == dear
+    assert ("9.6 Hz" in warned) == dear
 
 
 @pytest.mark.parametrize(

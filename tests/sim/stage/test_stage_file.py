@@ -270,7 +270,7 @@ def test_what_nothing_notices_is_left_out_and_told(world):
     fiducial, ghost = stage.notes
     assert ":3: a fiducial" in fiducial
     assert ":1: " in ghost and "ghost" in ghost
-    assert stage.left_out == {"a fiducial": 1, "a thing that nothing touches or sees": 1}
+    assert stage.left_out["a fiducial"] == 1 and [*stage.left_out.values()] == [1, 1]
 
 
 # ---- bitmaps ----

@@ -21,7 +21,8 @@ def test_a_file_is_run_on_paper(tmp_path):
     TOOL.run("--paper", str(file), say=said.append)
     assert said == ["1", "2"]
     result = TOOL.run("--paper", "-o", str(tmp_path / "it.svg"), str(file), say=said.append)
-    assert str(result) == f"Replay of Logo: 1 line, 10 steps\nturtle1 at [0 10], heading 0\n\n{tmp_path / 'it.svg'}"
+    for part in ("1 line, 10 steps", "turtle1 at [0 10], heading 0", str(tmp_path / "it.svg")):
+        assert part in str(result)
     assert (tmp_path / "it.svg").read_text(encoding="utf-8").startswith("<svg")
 
 

@@ -115,7 +115,8 @@ def test_the_end_is_told(page):
     page.run(0.1)
     page.panel.close()
     page.say("beat")
-    assert page.sent[-1][0] == {"type": "gone", "text": "the node /rqt_publisher was shut down"}
+    told = page.sent[-1][0]
+    assert told["type"] == "gone" and "/rqt_publisher" in told["text"]
 
 
 def test_a_notebook_gets_a_widget_and_a_page_gets_html(page, monkeypatch):

@@ -42,7 +42,8 @@ def turtlebot3(name):
 def test_any_robot():
     lamp = load(LAMP)
     view = urdf_3d(lamp, joints={"neck": 0.5}, title="A lamp")
-    assert view.text == "A lamp\n3D: lamp, 0.200 x 0.200 x 0.460 m, 2 links to see of 3; neck at 0.50"
+    for part in ("A lamp\n", "0.200 x 0.200 x 0.460 m", "2 links to see of 3", "neck at 0.50"):
+        assert part in view.text
     assert "foot, head; neck at 0.50." in view.alt
     assert {part.node.rpartition("/")[2] for part in view.scene.surfaces} == {"foot", "head"}
     assert {part.colour for part in view.scene.surfaces} == {"#ff0000", "#98a3ad", "#ffff00"}
@@ -53,12 +54,13 @@ def test_any_robot():
         for part in view.scene.surfaces
     )
     assert low == pytest.approx(0, abs=2e-3)  # it stands on the ground
-    assert view._html(book=True) == urdf_3d(lamp, joints={"neck": 0.5}, title="A lamp")._html(book=True)
+    assert view.html == urdf_3d(lamp, joints={"neck": 0.5}, title="A lamp").html
 
 
 def test_shapes_that_touch_others():
     view = urdf_3d(load(LAMP), collisions=True)
-    assert view.text == "3D: collision shapes of lamp, 0.200 x 0.200 x 0.200 m, 1 link to see of 3"
+    for part in ("collision", "lamp, 0.200 x 0.200 x 0.200 m", "1 link to see of 3"):
+        assert part in view.text
     assert {part.colour for part in view.scene.surfaces} == {"#e69e00"}
 
 

@@ -63,7 +63,8 @@ def test_strokes_of_a_hundred_thousand_points_are_thinned():
 
 def test_words_say_how_much_there_is():
     line = Shape("line", np.array([(0.0, 0.0), (1.0, 0.0)]))
-    assert Shapes("/p", np.array([1.0]), ((line,),), found=3).text() == "1 of 3 messages, the last with 2 points"
+    text = Shapes("/p", np.array([1.0]), ((line,),), found=3).text()
+    assert text.startswith("1 of 3 messages") and "2 points" in text
     stroke = Stroke(np.array([0.0, 1.0]), np.array([(0.0, 0.0), (0.0, 2.0)]))
     assert Strokes("/s", (stroke,)).text() == "1 stroke, 2.00 m"
     assert Strokes("/s", (stroke,)).bounds == (0.0, 0.0, 0.0, 2.0)

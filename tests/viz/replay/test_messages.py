@@ -145,7 +145,7 @@ def test_everything_is_found_by_its_type_and_laid_into_the_map(bag):
 def test_a_bag_is_played_by_its_path_and_by_its_method(bag):
     with bag(*driving(), (0.0, "/map", a_map([[0, 100]]))) as given:
         view = given.replay(title="A drive", robot="burger")
-        assert view.text.splitlines()[0] == "A drive: 4.0 s, in the frame map"
+        assert view.text.startswith("A drive: 4.0 s, ") and view.text.splitlines()[0].endswith(" map")
         assert "outline" in view.data["bodies"][0]
         same = replay(given.filename, title="A drive", robot="burger")
     assert same.html == view.html

@@ -249,9 +249,9 @@ def test_the_text_says_how_the_run_went():
     lines = replay(recording).text.splitlines()
     off = math.dist(recording.truth[-1, :2], recording.odom[-1, :2])
     hits = np.isfinite(recording.scans[-1]).sum()
-    assert lines[0] == "Replay of burger in room: 1.20 m in 8.0 s"
+    assert "burger in room" in lines[0] and "1.20 m in 8.0 s" in lines[0]
     assert f"{off:.3f} m" in lines[2]
-    assert lines[3] == "recorded: 241 poses, 41 scans, 4 commands"
+    assert "241 poses, 41 scans, 4 commands" in lines[3]
     assert f"{hits} of 360 beams hit" in lines[4]
     assert repr(recording.replay()) == replay(recording).text
     assert replay(recording, title="Two bends").text.startswith("Two bends: 1.20 m in 8.0 s")

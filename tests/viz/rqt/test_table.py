@@ -11,7 +11,7 @@ def table(columns, *rows):
 def test_three_forms():
     made = table(("Name", "Value"), Row(("a", "<1>")), Row(("b", "2"), depth=1), Row(("long", "")))
     assert made.text == "things: 2 things\n  Name  Value\n  a     <1>\n    b   2\n  long"
-    assert made.alt == "Table of things, 2 things; columns Name, Value. a, <1>; b, 2; long"
+    assert "2 things" in made.alt and "Name, Value. a, <1>; b, 2; long" in made.alt
     rows = made.html.partition("</style>")[2]
     assert "<td>&lt;1&gt;</td>" in rows
     assert rows.count("padding-left") == 1

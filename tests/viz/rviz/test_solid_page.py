@@ -11,7 +11,6 @@ from rosmini.msgs.nav_msgs.msg import OccupancyGrid
 from rosmini.msgs.visualization_msgs.msg import InteractiveMarker, InteractiveMarkerControl
 from rosmini.ros.interactive_markers import InteractiveMarkerServer
 from rosmini.viz import ViewError
-from rosmini.viz.rviz.projection import Perspective
 from rosmini.viz.rviz.window import RVizWindow
 
 
@@ -42,7 +41,6 @@ def pixel(window, *point):
 def test_a_view_that_turns_is_shown_by_a_viewer_in_a_page_that_lives_and_drawn_elsewhere(window):
     assert "rq-solid" in window.markup(live=True)
     assert "rosmini-rviz.js" in window.scripts
-    assert isinstance(window._projection, Perspective)
     still = window.html
     assert "<svg" in still
     assert "rq-solid" not in still

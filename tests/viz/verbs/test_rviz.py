@@ -50,7 +50,8 @@ def test_a_file_and_a_frame(graph, tmp_path):
     text = (tmp_path / "my.rviz").read_text(encoding="utf-8").replace("Use rainbow", "Use unicorn")
     (tmp_path / "my.rviz").write_text(text, encoding="utf-8")
     TOOL.run("-d", str(tmp_path / "my.rviz"), graph=graph, warn=warned.append)
-    assert warned == ["[WARN] my.rviz: unknown, but preserved: property Front laser/Use unicorn"]
+    (line,) = warned
+    assert line.startswith("[WARN] my.rviz: ") and line.endswith("Front laser/Use unicorn")
 
 
 def test_live_it_is_a_window_that_goes_on(graph):

@@ -228,6 +228,7 @@ def test_what_is_not_there_is_named(shop, stage, statuses):
         shop.display.drag("box", (0.0, 0.0, 0.0), control="x")
     scene, display = stage.display("InteractiveMarkers", more={"Update Topic": "/nobody/update"})
     scene.update()
-    assert statuses(display)["Topic"] == ("Warn", "No messages received: nobody publishes /nobody/update")
+    level, text = statuses(display)["Topic"]
+    assert level == "Warn" and "/nobody/update" in text
     display["Update Topic"] = "/basic"
     assert statuses(display)["Topic"] == ("Error", "Invalid topic name: /basic")

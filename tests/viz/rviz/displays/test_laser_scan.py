@@ -60,4 +60,5 @@ def test_impossible_angles_are_an_error_and_the_next_scan_is_shown(stage, status
 
 def test_a_transformer_that_the_message_cannot_serve_is_an_error(stage, statuses):
     _, display = points(stage, scan([1.0]), **{"Color Transformer": "RGB8"})
-    assert statuses(display)["Topic"] == ("Error", "No color transformer RGB8 for this message: it has no channels")
+    level, text = statuses(display)["Topic"]
+    assert level == "Error" and "RGB8" in text and "no channels" in text

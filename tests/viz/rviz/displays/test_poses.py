@@ -54,7 +54,8 @@ def test_a_pose_that_is_none(stage, statuses):
     zeros.pose.orientation.w = 0.0
     stage.publish("/goal", zeros, "map")
     assert len(scene.update()[0].primitives) == 1
-    assert statuses(display)["Message"] == ("Warn", "a quaternion is all zeros; it is drawn as no rotation")
+    level, text = statuses(display)["Message"]
+    assert level == "Warn" and "quaternion" in text
     stage.publish("/goal", PoseStamped(pose=pose()), "map")
     scene.update()
     assert "Message" not in statuses(display)
@@ -81,7 +82,8 @@ def test_an_ellipsoid_has_the_standard_deviations_as_half_axes(stage, statuses):
     message.pose.covariance = covariance(-1.0, 1.0, 0.0)
     stage.publish("/amcl_pose", message, "map")
     scene.update()
-    assert statuses(display)["Topic"] == ("Error", "Covariance matrix is not positive: it has negative variances")
+    level, text = statuses(display)["Topic"]
+    assert level == "Error" and "negative variances" in text
     display["Covariance"] = False
     assert len(scene.update()[0].primitives) == 1
 
