@@ -243,7 +243,7 @@ def test_an_ended_panel_is_disabled_and_says_why(show, graph):
     opened.panel.close()
     opened.page.clock.run_for(600)
     opened.pump()
-    assert opened.note == "the node /rqt_logger_level was shut down"
+    assert "/rqt_logger_level" in opened.note
     assert opened.control("refresh").is_disabled()
 
 

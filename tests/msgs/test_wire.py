@@ -66,7 +66,7 @@ def test_what_was_received_does_not_change_with_the_buffer() -> None:
 
 
 def test_text_that_is_not_utf8_is_replaced_as_in_rospy() -> None:
-    assert message_class("std_msgs/String")._decode(b"\x03\0\0\0a\xffb").data == "a\ufffdb"
+    assert message_class("std_msgs/String")().deserialize(b"\x03\0\0\0a\xffb").data == "a\ufffdb"
 
 
 def test_a_length_beyond_the_data_names_the_field() -> None:
@@ -88,6 +88,6 @@ def test_a_length_beyond_the_data_names_the_field() -> None:
 def test_an_array_of_empty_messages_cannot_hold_up_the_reader(make_registry: Any) -> None:
     reg: Registry = make_registry({"my_msgs/msg/Many.msg": "std_msgs/Empty[] many\n"})
     many = reg.message_class("my_msgs/Many")
-    assert len(many._decode(struct.pack("<I", 3)).many) == 3
+    assert len(many().deserialize(struct.pack("<I", 3)).many) == 3
     with pytest.raises(DeserializationError, match="field many claims 4294967295 elements"):
         many._decode(b"\xff\xff\xff\xff")

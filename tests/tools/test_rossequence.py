@@ -32,7 +32,7 @@ def arrows(graph: Graph, *words: str) -> list[str]:
 
 def test_it_draws_what_happened(graph: Graph, tmp_path: Path) -> None:
     lines = arrows(graph, "chatter", "--title", "Figure 1")
-    assert lines[0] == "Figure 1: 8 calls between 3"
+    assert lines[0].startswith("Figure 1: 8 calls")
     assert lines[-1] == "  /talker -> /listener: /chatter: 'tick'"
     assert arrows(graph, "-n", "2", "/chatter")[0].startswith(
         "What happened about /chatter (and 6 more calls after these): 2 calls"

@@ -50,10 +50,18 @@ def listen(graph, topic, kind):
     return heard
 
 
-def pixel(window, x, y):
+def place(window, x, y):
     window.parts()
-    (found,) = window._projection.pixels(np.array([[x, y, 0.0]]))
-    return f"{found[0]:.1f} {found[1]:.1f}"
+    return window._projection.pixels(np.array([[x, y, 0.0]]))[0]
+
+
+def pixel(window, x, y):
+    return "{:.1f} {:.1f}".format(*place(window, x, y))
+
+
+def scale(window):
+    """Pixels for a metre; those of a thousand kilometres, as each place is rounded."""
+    return (place(window, 1e6, 0.0)[0] - place(window, 0.0, 0.0)[0]) / 1e6
 
 
 def test_a_goal_is_published_where_a_hand_drags(graph, window):
@@ -89,13 +97,12 @@ def test_a_point_is_taken_of_what_is_drawn_and_not_of_empty_ground(graph, window
 
 def test_what_a_hand_takes_hold_of_follows_it_however_often_it_tells(graph, window):
     window.set("tool/Move Camera")
-    start = np.array(window._projection.pixels(np.array([[1.0, 3.0, 0.0]]))[0])
+    start = place(window, 1.0, 3.0)
     window.set("view", f"press {start[0]:.1f} {start[1]:.1f}")
     for part in (0.25, 0.5, 0.5, 0.8):
         window.set("view", f"move {start[0] + part * 100:.1f} {start[1]:.1f}")
     window.set("view", f"release {start[0] + 100:.1f} {start[1]:.1f}")
-    window.parts()
-    assert window._projection.pixels(np.array([[1.0, 3.0, 0.0]]))[0] == pytest.approx(start + (100, 0), abs=0.3)
+    assert place(window, 1.0, 3.0) == pytest.approx(start + (100, 0), abs=0.3)
 
 
 def test_a_hand_drags_an_interactive_marker(graph, window):
@@ -127,16 +134,12 @@ def test_the_camera_follows_a_drag_and_zooms_around(graph, window):
     window.set("view", f"press {before}")
     window.set("view", f"move {end}")
     window.set("view", f"release {end}")
-    moved = [float(a) - float(b) for a, b in zip(pixel(window, 2.0, 2.0).split(), before.split(), strict=True)]
-    window.parts()
-    assert moved == pytest.approx([window._projection.scale, 0.0], abs=0.5)
-    scale = window._projection.scale
+    first = scale(window)
+    assert place(window, 2.0, 2.0) - [float(part) for part in before.split()] == pytest.approx([first, 0.0], abs=0.5)
     window.set("closer")
-    window.parts()
-    assert window._projection.scale == pytest.approx(1.25 * scale)
+    assert scale(window) == pytest.approx(1.25 * first)
     window.set("view", "wheel 1 10 10")
-    window.parts()
-    assert window._projection.scale == pytest.approx(scale)
+    assert scale(window) == pytest.approx(first)
 
 
 def test_displays_are_switched_and_say_how_they_are(graph, window):
@@ -181,16 +184,13 @@ def test_a_window_takes_the_place_of_the_one_before_it_and_leaves_nothing(graph)
 
 def test_the_view_follows_what_comes_until_a_hand_is_on_it(graph):
     window = RVizWindow(graph, fixed_frame="map")
-    window.parts()
-    before = window._projection.scale
+    before = scale(window)
     graph.run(0.5)
-    window.parts()
-    after = window._projection.scale
+    after = scale(window)
     assert after > 1.5 * before  # the map has come, and is smaller than the grid
     window.set("closer")
     graph.run(0.5)
-    window.parts()
-    assert window._projection.scale == pytest.approx(1.25 * after)
+    assert scale(window) == pytest.approx(1.25 * after)
     window.close()
 
 
