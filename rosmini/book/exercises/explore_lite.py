@@ -6,8 +6,8 @@ from typing import Any
 
 from rosmini.book.checks import Script, exercise, expect, expect_type
 from rosmini.book.trials import TurtleTrial
-from rosmini.msgs.sensor_msgs.msg import BatteryState
-from rosmini.msgs.std_msgs.msg import Bool
+from rosmini.msgs.std_msgs.msg import String
+from rosmini.msgs.visualization_msgs.msg import Marker, MarkerArray
 
 Frontiers = list[tuple[float, int]]
 
@@ -46,42 +46,48 @@ def cheapest(answer: Any) -> None:
         expect(found == wanted and isinstance(found, bool) is False, said, why)
 
 
-LEVELS = (
-    (0.9, None),
-    (0.5, None),
-    (0.19, False),
-    (0.1, None),
-    (0.3, None),
-    (0.79, None),
-    (0.81, True),
-    (0.9, None),
-    (0.5, None),
-    (0.25, None),
-    (0.15, False),
-    (0.85, True),
-)
-"""Battery levels, and the expected messages."""
+VIEWS = ("bb", "bbr", "b", "rrr", "", "rb")
+"""The frontiers of each message: b is a blue one, r one that was given up."""
+COLOURS = {"b": (0.0, 0.0, 1.0), "r": (1.0, 0.0, 0.0)}
 
 
-@exercise("battery_guard", praise="The robot stops at a low battery and continues as soon as it is charged.")
-def guard(answer: Script) -> None:
-    """A node that pauses the explorer at a low battery and resumes it later."""
+def _markers(view: str, shown: int) -> MarkerArray:
+    """The markers that `explore` publishes for `view`, and the deletions of `shown` older ones."""
+    markers = []
+    for colour in view:
+        for kind, rgb in ((Marker.POINTS, COLOURS[colour]), (Marker.SPHERE, (0.0, 1.0, 0.0))):
+            marker = Marker(ns="frontiers", id=len(markers), type=kind, action=Marker.ADD)
+            marker.color.r, marker.color.g, marker.color.b = rgb
+            marker.color.a = 1.0
+            markers.append(marker)
+    for number in range(len(markers), shown):
+        gone = Marker(ns="frontiers", id=number, type=Marker.SPHERE, action=Marker.DELETE)
+        gone.color.b = 1.0
+        markers.append(gone)
+    return MarkerArray(markers=markers)
+
+
+@exercise("frontier_count", praise="The last report of an exploration now says whether anything was given up.")
+def frontier_count(answer: Script) -> None:
+    """A node that reports how many frontiers are open, and how many were given up."""
     with TurtleTrial(None) as trial:
-        node = trial.graph.node("board")
-        heard: list[bool] = []
-        node.subscriber("explore/resume", Bool, lambda message: heard.append(message.data))
-        battery = node.publisher("battery_state", BatteryState, queue_size=5)
+        node = trial.graph.node("explore")
+        heard: list[str] = []
+        node.subscriber("report", String, lambda message: heard.append(message.data))
+        frontiers = node.publisher("explore/frontiers", MarkerArray, queue_size=5)
         trial.start(answer)
         trial.run(2.0)
-        for level, wanted in LEVELS:
+        shown = 0
+        for view in VIEWS:
             heard.clear()
-            battery.publish(BatteryState(percentage=level))
+            frontiers.publish(_markers(view, shown))
             trial.run(0.5)
-            right = [] if wanted is None else [wanted]
+            shown = 2 * len(view)
+            wanted = [f"{view.count('b')} open, {view.count('r')} given up"]
             expect(
-                heard == right,
-                f"At {level:.0%} it published {heard or 'nothing'} on explore/resume, not {right or 'nothing'}.",
-                "publish False once below 0.2, and True once above 0.8, but only after the level was low",
+                heard == wanted,
+                f"For {wanted[0]} it published {heard or 'nothing'} on report.",
+                "count the markers of the type POINTS; color.r is 1 if the frontier was given up",
             )
 
 
@@ -93,11 +99,11 @@ def _cost(potential: float, gain: float, distance: float, length: float) -> floa
     return potential * distance * R - gain * length
 
 
-@exercise("cautious", praise="The robot prefers short trips and returns at the end.", truths=("return_to_init",))
+@exercise("cautious", praise="The robot prefers short trips, and drives far only to long frontiers.")
 def cautious(answer: Any) -> None:
     """Parameters that weigh distance and size as the task asks."""
     expect_type(answer, dict, "parameters is", "a dictionary")
-    known = {"gain_scale", "potential_scale", "min_frontier_size", "progress_timeout", "return_to_init"}
+    known = {"gain_scale", "potential_scale", "min_frontier_size", "progress_timeout"}
     expect(
         answer.get("gain_scale") == 1, f"gain_scale is {answer.get('gain_scale')!r}, not 1.", "the task gives its value"
     )
@@ -116,7 +122,7 @@ def cautious(answer: Any) -> None:
         f"With potential_scale {potential:g} the near frontier costs {near:+.2f}, the large one at 3 m {middle:+.2f}.",
         "give the distance less weight",
     )
-    for name, wanted in (("min_frontier_size", 0.6), ("progress_timeout", 15), ("return_to_init", True)):
+    for name, wanted in (("min_frontier_size", 0.6), ("progress_timeout", 15)):
         expect(
             name in answer and answer[name] == wanted,
             f"{name} is {answer.get(name)!r}, not {wanted!r}.",
@@ -126,5 +132,5 @@ def cautious(answer: Any) -> None:
     expect(
         not others,
         f"{', '.join(map(str, others))} is not a parameter of explore that matters here.",
-        "five parameters are enough",
+        "four parameters are enough",
     )

@@ -2,8 +2,7 @@
 
 It subscribes to a map and its updates, sends goals to `move_base`, and shows frontiers on `~frontiers`: blue, or red if
 given up, with a green ball that is smaller for higher costs. Unlike in the original, a frontier that was given up is
-tried once more when no other is left. False on `~resume` stops the exploration, True resumes it; with
-`return_to_init` the robot finally returns to its start. These two features come from the version for ROS 2.
+tried once more when no other is left.
 """
 
 from __future__ import annotations
@@ -47,7 +46,6 @@ class ExploreParameters(Parameters):
     gain_scale: float = parameter(1.0, "the weight of a frontier's size")
     transform_tolerance: float = parameter(0.3, "how old the robot's pose may be", unit="s")
     min_frontier_size: float = parameter(0.5, "smaller frontiers are ignored", unit="m")
-    return_to_init: bool = parameter(False, "whether the robot finally returns to its start")
 
 
 class Explore:
@@ -72,7 +70,6 @@ class Explore:
         if self._markers is not None:
             self._markers.expect_nobody()
         self.map = MapClient(node, own)
-        self._start: tuple[float, float] | None = None
         self.move_base = SimpleActionClient(node, "move_base", message_class("move_base_msgs/MoveBaseAction"))
         node.loginfo("Waiting to connect to move_base server")
         while not self.move_base.wait_for_server(WARN_PERIOD):
@@ -80,7 +77,6 @@ class Explore:
                 return
             node.logwarn("Still waiting for the action server move_base: start move_base")
         node.loginfo("Connected to move_base server")
-        node.subscriber("~resume", message_class("std_msgs/Bool"), self._resume, queue_size=10)
         self.is_exploring = True
         node.timer(1 / own.planner_frequency, lambda _: self.make_plan())
 
@@ -110,7 +106,9 @@ class Explore:
         if self.frontiers:
             given_up = formatted_points(one.centroid for _, one in self.frontiers)
             self.node.logwarn(f"{len(self.frontiers)} frontiers were given up, at {given_up}")
-        self._stop(is_finished=True)
+        self.is_exploring = False
+        self.move_base.cancel_all_goals()
+        self.node.loginfo("Exploration stopped.")
 
     def _update_frontiers(self) -> bool:
         """Find and publish the frontiers; return False if the robot's pose is unknown or outside the map."""
@@ -120,7 +118,6 @@ class Explore:
         except (TransformMissing, IndexError) as error:
             self.node.logwarn(f"Exploration waits for the robot's pose: {error}", throttle=WARN_PERIOD)
             return False
-        self._start = self._start or (x, y)
         self.frontiers = ranked(found, self.weights, self.map.grid.resolution)
         if self._markers is not None and self._markers.num_connections():
             self._markers.publish(self._array(markers=list(self._markers_of_frontiers())))
@@ -150,24 +147,6 @@ class Explore:
         if self.is_exploring:
             # Not in the client's callback, where the next goal would be taken for the old one's end.
             self.node.timer(NEXT_GOAL_DELAY, lambda _: self.make_plan(), oneshot=True)
-
-    # -- stopping and resuming -----------------------------------------------------------------------------------
-
-    def _resume(self, message: Any) -> None:
-        if message.data and not self.is_exploring:
-            self.node.loginfo("Exploration resuming.")
-            self.is_exploring, self.goal = True, None
-            self.make_plan()
-        elif not message.data and self.is_exploring:
-            self._stop(is_finished=False)
-
-    def _stop(self, *, is_finished: bool) -> None:
-        self.is_exploring = False
-        self.move_base.cancel_all_goals()
-        self.node.loginfo("Exploration stopped.")
-        if is_finished and self.parameters.return_to_init and self._start is not None:
-            self.node.loginfo("Attempting to return to initial pose.")
-            self._send(self._start)
 
     # -- pictures ------------------------------------------------------------------------------------------------
 

@@ -28,13 +28,7 @@ rospy.spin()
 """
 
 
-CAUTIOUS = {
-    "gain_scale": 1,
-    "potential_scale": 20.0,
-    "min_frontier_size": 0.6,
-    "progress_timeout": 15.0,
-    "return_to_init": True,
-}
+CAUTIOUS = {"gain_scale": 1, "potential_scale": 20.0, "min_frontier_size": 0.6, "progress_timeout": 15.0}
 
 
 @pytest.mark.parametrize(

@@ -94,35 +94,6 @@ def test_markers(stage, explore):
     assert [marker.action for marker in stage.markers[-1].markers] == [0, 0, 2, 2]
 
 
-def test_stop_and_go_on(stage, explore):
-    stage.know(0.5, 0.5, 1.6, 1.6)
-    stage.answer = None
-    node = explore()
-    resume = stage.node.publisher("explore/resume", message_class("std_msgs/Bool"))
-    stage.graph.run(2.0)
-    resume.publish(message_class("std_msgs/Bool")(data=False))
-    stage.graph.run(1.0)
-    assert stage.said("Exploration stopped.")
-    assert not stage.base.is_active()
-    stage.graph.run(3.0)
-    stage.answer = "set_succeeded"
-    resume.publish(message_class("std_msgs/Bool")(data=True))
-    stage.graph.run(3.0)
-    assert stage.said("Exploration resuming.")
-    assert node.is_exploring
-    assert len(stage.goals) > 1
-    assert not node.blacklist.points
-
-
-def test_back_to_the_start(stage, explore):
-    stage.know(0.5, 0.5, 1.6, 1.6)
-    explore(return_to_init=True)
-    assert run(stage)
-    stage.graph.run(3.0)
-    assert stage.goals[-1] == (1.05, 1.05)
-    assert stage.pose[:2] == pytest.approx((1.05, 1.05))
-
-
 def test_a_robot_that_is_taken_away_and_put_back(stage, explore):
     stage.know(0.5, 0.5, 1.6, 1.6)
     node = explore()

@@ -9,27 +9,21 @@ from rosmini.book.checks import Script
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-GUARD = """
+COUNTER = """
 import rospy
-from sensor_msgs.msg import BatteryState
-from std_msgs.msg import Bool
-
-rests = False
+from std_msgs.msg import String
+from visualization_msgs.msg import Marker, MarkerArray
 
 
-def on_battery(battery):
-    global rests
-    if battery.percentage < 0.2 and not rests:
-        rests = True
-        resume.publish(False)
-    elif battery.percentage > 0.8 and rests:
-        rests = False
-        resume.publish(True)
+def on_frontiers(message):
+    lines = [m for m in message.markers if m.type == Marker.POINTS]
+    red = sum(m.color.r == 1.0 for m in lines)
+    report.publish(f"{len(lines) - red} open, {red} given up")
 
 
-rospy.init_node("guard")
-resume = rospy.Publisher("explore/resume", Bool, queue_size=1)
-rospy.Subscriber("battery_state", BatteryState, on_battery)
+rospy.init_node("counter")
+report = rospy.Publisher("report", String, queue_size=1)
+rospy.Subscriber("explore/frontiers", MarkerArray, on_frontiers)
 rospy.spin()
 """
 
@@ -56,13 +50,7 @@ def _cheapest(*, above: bool = False, metres: bool = False, dearest: bool = Fals
 
 
 def _parameters(**changes: Any) -> Callable[[], dict[str, Any]]:
-    right = {
-        "gain_scale": 1.0,
-        "potential_scale": 20.0,
-        "min_frontier_size": 0.6,
-        "progress_timeout": 15.0,
-        "return_to_init": True,
-    }
+    right = {"gain_scale": 1.0, "potential_scale": 20.0, "min_frontier_size": 0.6, "progress_timeout": 15.0}
     return lambda: {name: value for name, value in {**right, **changes}.items() if value is not None}
 
 
@@ -74,19 +62,18 @@ MISTAKES = {
         _cheapest(of_large=True),
         lambda: lambda *_: 0,
     ],
-    "battery_guard": [
-        _but(GUARD, " and not rests", ""),
-        _but(GUARD, " and rests", ""),
-        _but(GUARD, "publish(False)", "publish(True)"),
-        _but(GUARD, "> 0.8", "> 0.2"),
-        _but(GUARD, "< 0.2", "< 0.5"),
-        _but(GUARD, "explore/resume", "resume"),
+    "frontier_count": [
+        _but(COUNTER, " if m.type == Marker.POINTS", ""),
+        _but(COUNTER, "if m.type == Marker.POINTS", "if m.type == Marker.SPHERE"),
+        _but(COUNTER, "m.color.r == 1.0", "m.color.b == 1.0"),
+        _but(COUNTER, "{len(lines) - red}", "{len(lines)}"),
+        _but(COUNTER, '"report"', '"reports"'),
     ],
     "cautious": [
         _parameters(potential_scale=3.0),
         _parameters(potential_scale=40.0),
         _parameters(gain_scale=2.0),
-        _parameters(return_to_init=None),
+        _parameters(min_frontier_size=None),
         _parameters(progress_timeout=30.0),
         _parameters(min_frontier_size=0.75),
         _parameters(potential_scale="20"),
