@@ -53,7 +53,7 @@ COLOURS = {"b": (0.0, 0.0, 1.0), "r": (1.0, 0.0, 0.0)}
 
 def _markers(view: str, shown: int) -> MarkerArray:
     """The markers that `explore` publishes for `view`, and the deletions of `shown` older ones."""
-    markers = []
+    markers: list[Marker] = []
     for colour in view:
         for kind, rgb in ((Marker.POINTS, COLOURS[colour]), (Marker.SPHERE, (0.0, 1.0, 0.0))):
             marker = Marker(ns="frontiers", id=len(markers), type=kind, action=Marker.ADD)
