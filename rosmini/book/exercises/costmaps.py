@@ -74,6 +74,11 @@ def door(answer: Any) -> Any:
         expect_type(answer[name], (int, float), f"{name} is", "a number")
     radius, reach, scaling = (float(answer[name]) for name in names)
     expect(radius >= 0.105, f"The Burger is 21 cm wide; a radius of {radius:g} m is too small.", "use at least 0.105")
+    expect(
+        radius <= 0.2,
+        f"A radius of {radius:g} m is much larger than the Burger, whose corners are about 0.16 m from its centre.",
+        "use at most 0.2",
+    )
     inscribed, _ = radii(padded(footprint_from_radius(radius), 0.01))
     costmap = inflated(_apartment(), inscribed_radius=inscribed, inflation_radius=reach, cost_scaling_factor=scaling)
     search = NavfnSearch(costmap.costs, START, GOAL)

@@ -109,7 +109,7 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
         _numbers(0.051, 0.6, 5.0),
         _numbers(0.12, 0.2, 5.0),
         _numbers(0.12, 0.6, 40.0),
-        _numbers(0.46, 0.6, 5.0),
+        _numbers(0.35, 0.6, 5.0),
         _numbers("0.12", 0.6, 5.0),
     ],
     "blocker": [
