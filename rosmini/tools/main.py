@@ -217,7 +217,7 @@ def chosen(argv: Sequence[str]) -> str | None:
 def in_script(name: str, words: Sequence[str]) -> int:
     """Run a tool with some words on the graph that runs the caller, print the output, and return the exit status.
 
-    ``rostopic.rostopicmain`` and similar functions find this through the entry point `rosmini.tools`.
+    ``rosbag.rosbagmain`` and ``rosparam.yamlmain`` find this through the entry point `rosmini.tools`.
     """
     tool = COMMANDS[name].tool()
     if tool is None:

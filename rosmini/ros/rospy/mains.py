@@ -1,4 +1,4 @@
-"""The ``main`` functions of ROS's modules, such as ``rostopic.rostopicmain``: command lines run by a script."""
+"""The ``main`` functions of ROS's modules ``rosbag`` and ``rosparam``: command lines run by a script."""
 
 from __future__ import annotations
 
