@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from rosmini.viz.embed import asset_path, embed
+from rosmini.viz.embed import MESHCAT, asset_path, embed, unpacking
 from rosmini.viz.svg import element, escape
 
 from .key_maps import NAMES, key_map
@@ -23,6 +23,8 @@ TURTLE_STEP = 0.004
 """Time step of a turtle in a page [s]: both its 16 ms and the 0.1 s between messages are multiples of it."""
 
 SCRIPTS = ("rosmini-canvas.js", "rosmini-teleop.js", "rosmini-pad-style.js", "rosmini-pad-keys.js", "rosmini-pad.js")
+SOLID = "rosmini-meshcat.js"
+"""Script that shows a scene in three dimensions."""
 HEIGHT = 420
 
 
@@ -96,6 +98,8 @@ def static_html(pad: TeleopPad, *, caption: str | None = None) -> str:
 def module(names: Sequence[str], driver: str) -> str:
     """Return the scripts as one module for anywidget, in which `driver` talks to the kernel."""
     texts = [asset_path(name).read_text(encoding="utf-8") for name in names]
+    if SOLID in names:
+        texts.insert(0, f"globalThis.rosminiAsset = (() => {{{unpacking([MESHCAT])} return asset; }})();")
     return "\n".join([*texts, f"export default {{ render: globalThis.{driver}.render }};\n"])
 
 

@@ -195,7 +195,7 @@
       page?.close();
       const kernel = new Kernel(model, data);
       kernel.opened = open;
-      page = new Page(el, data, kernel, globalThis.rosminiAsset);
+      page = new Page(el, data, kernel);
       page.section.kernel = kernel; // for those who measure
       if (data !== model.get("data")) page.stage.focus({ preventScroll: true });
     };
