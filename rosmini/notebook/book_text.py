@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 PID = "4242"
 
 OWN_TOOLS = f"{sys.executable} -m rosmini "
-"""How a command line of rosmini's begins where a command line of ROS begins with the tool."""
+"""Prefix of rosmini's command lines, which ROS's do not have."""
 
 _PID = re.compile(r"(?<=\bPid: )\d+|(?<=\bpid \[)\d+")
 

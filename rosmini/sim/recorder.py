@@ -255,7 +255,7 @@ class _Run:
             self.add(COMMANDS, self._recorder.node.clock.now_ns(), velocities)
 
     def add(self, topic: str, stamp: int, row: Any) -> None:
-        """Add what a topic said at a time [ns]."""
+        """Add a value from a topic at a time [ns]."""
         back = self.tracks[topic].behind(stamp)
         if back:
             self._recorder.clock_went_back(self.topic(topic), back)

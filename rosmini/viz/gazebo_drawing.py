@@ -37,7 +37,7 @@ NEEDS = {
 }
 """Gazebo's programs and libraries, and what each of them uses."""
 EXTERNAL = ("Qt", "ODE, Bullet, Simbody, DART", "OGRE", "Protobuf", "Boost ASIO")
-"""The projects of others among them."""
+"""Those of them that are separate projects."""
 
 
 def gazebo_processes() -> Picture:
