@@ -3,108 +3,10 @@
 from __future__ import annotations
 
 import math
-import os
-from pathlib import Path
 from typing import Any
 
-import yaml
-
-from rosmini.book.checks import Wrong, exercise, expect, expect_type
-from rosmini.book.trials import Trial
-from rosmini.core.errors import RosminiError
-from rosmini.core.packages import PackageIndex
-from rosmini.core.time import Time
-from rosmini.msgs.geometry_msgs.msg import PoseStamped
-from rosmini.msgs.move_base_msgs.msg import MoveBaseActionResult
-from rosmini.navigation.nav_core import pose_stamped
-from rosmini.ros.launch import Launch, read
-from rosmini.ros.launch.running import in_graph
-
-COURIER = """
-<launch>
-  <include file="$(find rosmini_sim)/launch/navigation.launch">
-    <arg name="x" value="{x}"/>
-    <arg name="y" value="{y}"/>
-    <arg name="yaw" value="{yaw}"/>
-  </include>
-  <rosparam ns="move_base">
-{settings}
-  </rosparam>
-</launch>
-"""
-
-Pose = tuple[float, float, float]
-
-
-class Drive(Trial):
-    """The text of a launch file with the Navigation Stack, started in a graph of its own.
-
-    Raises:
-        Wrong: roslaunch refuses the text, or it starts no simulator.
-
-    """
-
-    def __init__(self, text: str) -> None:
-        from rosmini.sim.recorder import Recorder
-
-        self._begin(is_shown=True)
-        packages = PackageIndex()
-        try:
-            path = str(Path("answer.launch").resolve())
-            plan = read(text=text, path=path, args={}, packages=packages, environ=os.environ)
-            self.launch = Launch(plan, self.graph, in_graph(self.graph, packages, capture_output=True))
-            self.launch.start()
-            self.graph.run(0.1)
-        except RosminiError as error:
-            self.graph.shutdown()
-            said = str(error).replace(f"{Path.cwd()}{os.sep}", "")
-            raise Wrong(f"It cannot be started: {said}", "the message names the tag or the parameter") from error
-        found = self.graph.nodes.get("/simulator")
-        if found is None or "/move_base" not in self.graph.nodes:
-            self.graph.shutdown()
-            raise Wrong("There is no node /simulator, or no /move_base.", "include navigation.launch")
-        self.robot = found.program
-        self._recorder = Recorder(self.graph, self.robot)
-        self.results: list[str] = []
-        self._desk = self.graph.node("desk")
-        self._desk.subscriber(
-            "/move_base/result", MoveBaseActionResult, lambda message: self.results.append(message.status.text)
-        )
-        self._goals = self._desk.publisher("/move_base_simple/goal", PoseStamped, queue_size=1)
-        self.run(2.0)
-
-    def go(self, goal: Pose, seconds: float) -> float:
-        """Drive to a goal. Return the distance from it [m] when `move_base` is done, at the latest after `seconds`."""
-        self._goals.publish(pose_stamped("map", Time(), goal))
-        begin = self.graph.now().to_sec()
-        while not self.results and self.graph.now().to_sec() < begin + seconds:
-            self.run(0.5)
-        x, y, _ = self.robot.truth()
-        return math.dist((x, y), goal[:2])
-
-    def expect_arrival(self, goal: Pose, seconds: float, hint: str) -> None:
-        """Expect that the robot reaches a goal in this time."""
-        off = self.go(goal, seconds)
-        said = self.results[0] if self.results else "nothing"
-        expect(
-            bool(self.results) and "reached" in said and off < 0.25,
-            f"After at most {seconds:g} s the robot is {off:.1f} m from its goal, and move_base said: {said}",
-            hint,
-        )
-
-
-def _courier(answer: Any, name: str, start: Pose) -> tuple[Drive, dict[str, Any]]:
-    """Start the stack in the house with the settings of an answer."""
-    expect_type(answer, str, f"{name} is", "a text")
-    try:
-        settings = yaml.safe_load(answer)
-    except yaml.YAMLError as error:
-        raise Wrong(f"It is not valid YAML: {str(error).splitlines()[0]}", "check the indentation") from error
-    expect_type(settings, dict, "The text contains", "a dictionary of parameters")
-    x, y, yaw = start
-    text = COURIER.format(x=x, y=y, yaw=yaw, settings=yaml.safe_dump(settings))
-    return Drive(text), settings
-
+from rosmini.book.checks import exercise, expect, expect_type
+from rosmini.book.drives import Drive, courier
 
 # ---- spinning: a robot that turns at its goal for ever ----
 
@@ -113,7 +15,7 @@ def _courier(answer: Any, name: str, start: Pose) -> tuple[Drive, dict[str, Any]
 def spinning(answer: Any) -> Any:
     """Settings with which the robot stops at its goal, and looks where it should."""
     goal = (-2.0, 0.8, 1.57)
-    drive, _ = _courier(answer, "settings", (-3.0, 1.0, 0.0))
+    drive, _ = courier(answer, "settings", (-3.0, 1.0, 0.0))
     with drive:
         drive.expect_arrival(goal, 25.0, "compare the turn between two commands with the width of the target")
         _, _, yaw = drive.robot.truth()
@@ -138,7 +40,7 @@ DOOR = {"global_costmap": (-1.03, 0.0), "local_costmap": (1.0, 0.0)}
 @exercise("ghosts", praise="The laser removes what it no longer sees.")
 def ghosts(answer: Any) -> Any:
     """Settings with which obstacles appear in both costmaps and disappear again."""
-    drive, _ = _courier(answer, "settings", (-1.0, 1.0, -1.57))
+    drive, _ = courier(answer, "settings", (-1.0, 1.0, -1.57))
     with drive:
         for name, pose in CRATES.items():
             drive.robot.drag(name, pose)

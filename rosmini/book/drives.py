@@ -1,0 +1,126 @@
+"""Trials of launch files, scripts and settings with the whole Navigation Stack: a robot drives to goals."""
+
+from __future__ import annotations
+
+import math
+import os
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from rosmini.core.errors import RosminiError
+from rosmini.core.packages import PackageIndex
+from rosmini.core.time import Time
+from rosmini.msgs.geometry_msgs.msg import PoseStamped
+from rosmini.msgs.move_base_msgs.msg import MoveBaseActionResult
+from rosmini.navigation.nav_core import pose_stamped
+from rosmini.ros.launch import Launch, read
+from rosmini.ros.launch.running import in_graph
+
+from .checks import Wrong, expect, expect_type
+from .trials import Trial
+
+COURIER = """
+<launch>
+  <include file="$(find rosmini_sim)/launch/navigation.launch">
+    <arg name="x" value="{x}"/>
+    <arg name="y" value="{y}"/>
+    <arg name="yaw" value="{yaw}"/>
+  </include>
+  <rosparam ns="move_base">
+{settings}
+  </rosparam>
+</launch>
+"""
+
+Pose = tuple[float, float, float]
+
+
+class Drive(Trial):
+    """The text of a launch file with the Navigation Stack, started in a graph of its own.
+
+    Raises:
+        Wrong: roslaunch refuses the text, or it starts no simulator.
+
+    """
+
+    def __init__(self, text: str) -> None:
+        from rosmini.sim.recorder import Recorder
+
+        self._begin(is_shown=True)
+        packages = PackageIndex()
+        try:
+            path = str(Path("answer.launch").resolve())
+            plan = read(text=text, path=path, args={}, packages=packages, environ=os.environ)
+            self.launch = Launch(plan, self.graph, in_graph(self.graph, packages, capture_output=True))
+            self.launch.start()
+            self.graph.run(0.1)
+        except RosminiError as error:
+            self.graph.shutdown()
+            said = str(error).replace(f"{Path.cwd()}{os.sep}", "")
+            raise Wrong(f"It cannot be started: {said}", "the message names the tag or the parameter") from error
+        found = self.graph.nodes.get("/simulator")
+        if found is None or "/move_base" not in self.graph.nodes:
+            self.graph.shutdown()
+            raise Wrong("There is no node /simulator, or no /move_base.", "include navigation.launch")
+        self.robot = found.program
+        self._recorder = Recorder(self.graph, self.robot)
+        self.results: list[str] = []
+        """Texts of the goals that `move_base` has finished."""
+        self._desk = self.graph.node("desk")
+        self._desk.subscriber(
+            "/move_base/result", MoveBaseActionResult, lambda message: self.results.append(message.status.text)
+        )
+        self._goals = self._desk.publisher("/move_base_simple/goal", PoseStamped, queue_size=1)
+        self.run(2.0)
+
+    def finish(self, seconds: float) -> None:
+        """Let time pass until `move_base` has finished a goal that a script sends, for at most `seconds`."""
+        end = self.graph.now().to_sec() + seconds
+        while not self.results and self.graph.now().to_sec() < end:
+            self.run(0.5)
+
+    def go(self, goal: Pose, seconds: float) -> float:
+        """Drive to a goal. Return the distance from it [m] when `move_base` is done, at the latest after `seconds`."""
+        self.results.clear()
+        self._goals.publish(pose_stamped("map", Time(), goal))
+        self.finish(seconds)
+        x, y, _ = self.robot.truth()
+        return math.dist((x, y), goal[:2])
+
+    def expect_arrival(self, goal: Pose, seconds: float, hint: str) -> None:
+        """Expect that the robot reaches a goal in this time."""
+        off = self.go(goal, seconds)
+        said = self.results[0] if self.results else "nothing"
+        expect(
+            bool(self.results) and "reached" in said and off < 0.25,
+            f"After at most {seconds:g} s the robot is {off:.1f} m from its goal, and move_base said: {said}",
+            hint,
+        )
+
+
+def courier(answer: Any, name: str, start: Pose) -> tuple[Drive, dict[str, Any]]:
+    """Start the Navigation Stack in the house, with an answer as `move_base`'s settings in YAML.
+
+    Args:
+        answer: the text of the settings.
+        name: the name of the reader's variable.
+        start: the pose at which the robot starts.
+
+    Returns:
+        The trial, and the settings.
+
+    Raises:
+        Wrong: the answer is no text with a dictionary in YAML.
+
+    """
+    expect_type(answer, str, f"{name} is", "a text")
+    try:
+        settings = yaml.safe_load(answer)
+    except yaml.YAMLError as error:
+        raise Wrong(f"It is not valid YAML: {str(error).splitlines()[0]}", "check the indentation") from error
+    expect_type(settings, dict, "The text contains", "a dictionary of parameters")
+    x, y, yaw = start
+    text = COURIER.format(x=x, y=y, yaw=yaw, settings=yaml.safe_dump(settings))
+    return Drive(text), settings
