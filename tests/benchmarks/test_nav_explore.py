@@ -30,11 +30,10 @@ def test_the_table():
         Explored("maze", "explore_lite", 1, "Exploration stopped.", 400.0, 80.0, 0.99, 60, 0, 20.0),
         Explored("maze", "explore_lite", 2, "", 2400.0, 100.0, 0.5, 90, 1, 40.0),
     ]
-    head, _, row, other = table([(runs[0], "abc"), (runs[1], "abc"), (runs[1], "abd")])
-    assert "seen all" in head
-    assert row.startswith("| maze | explore_lite | 1 of 2 |")
-    assert row.endswith("| 46.7 | abc |"), "2800 s in 60 s of the processor"
-    assert other.endswith("| 60.0 | abd |")
+    head, _, row = table(runs)
+    assert "saw all" in head
+    assert row.startswith('| <a id="maze-explore-lite"></a>maze, explore_lite | 1 of 2 |')
+    assert row.endswith("| 1 of 2 | 74% (50%) | 1400 s | 90 m | 75 | 1 |")
 
 
 @pytest.mark.nightly
@@ -52,9 +51,9 @@ def test_a_run_without_the_doors_is_another_row(tmp_path):
         Explored("office", "explore_lite", 1, "", 2400.0, 80.0, 0.78, 60, 0, 20.0),
         Explored("office", "explore_lite", 1, "", 2400.0, 80.0, 0.99, 60, 0, 20.0, "door"),
     ]
-    _, _, row, other = table((one, "abc") for one in runs)
-    assert row.startswith("| office | explore_lite |")
-    assert other.startswith("| office without doors | explore_lite |")
+    _, _, row, other = table(runs)
+    assert "</a>office, explore_lite |" in row
+    assert "</a>office without doors, explore_lite |" in other
     lines = [Line("abc", one) for one in runs]
     for line in lines:
         append(line, tmp_path / "study.jsonl")

@@ -1,17 +1,18 @@
 """The page about localisation is made of the committed rows, and a row of a seed replaces the one before."""
 
-from rosmini_bench import nav_located
+from rosmini_bench import nav_charts, nav_located
 from rosmini_bench.nav_located import Row
 
 from rosmini.core.errors import RosminiError
 
 
-def test_the_page_is_what_is_made_of_the_committed_rows():
+def test_the_page_and_its_charts_are_what_is_made_of_the_committed_rows():
     rows = nav_located.load(nav_located.FILE)
     assert rows
-    assert nav_located.PAGE.read_text(encoding="utf-8") == nav_located.write(rows), (
-        "run: PYTHONPATH=tests/benchmarks python -m rosmini_bench.nav_located"
-    )
+    run = "run: PYTHONPATH=tests/benchmarks python -m rosmini_bench.nav_located"
+    assert nav_located.PAGE.read_text(encoding="utf-8") == nav_located.write(rows), run
+    for name, svg in nav_located.charts(rows).items():
+        assert (nav_charts.DRAWINGS / f"{name}.svg").read_text(encoding="utf-8") == svg + "\n", run
 
 
 def test_rows_are_kept_and_counted(tmp_path):
@@ -27,8 +28,8 @@ def test_rows_are_kept_and_counted(tmp_path):
     kept = nav_located.load(file)
     assert [row.seed for row in kept if row.study == "lost"] == [1, 2, 3]
     page = nav_located.page(kept)
-    assert "| house | 3 of 3 | 44% to 100% | 30 s | 1 to 3 | abc, def |" in page
-    assert "| house | 5 (6) | 0.7 (0.6) | 1 to 3 | abc |" in page
+    assert '| <a id="lost-house"></a>house | 3 of 3 | 44% to 100% | 30 s | 1 to 3 |' in page
+    assert "</a>house | 5 (6) | 0.7 (0.6) | 1 to 3 |" in page
 
 
 def test_bench_measures_a_row_of_each_study(monkeypatch, capsys):
@@ -39,5 +40,8 @@ def test_bench_measures_a_row_of_each_study(monkeypatch, capsys):
     monkeypatch.setattr(nav_located, "STUDIES", studies | {"lost": lost})
     nav_located.show(quick=True)
     shown = capsys.readouterr().out
-    assert "tracking:\n| what | off [cm] | seeds | commit |\n|---|---|---|---|\n| house | 5 (5) | 1 |" in shown
+    assert (
+        'tracking:\n| drives | off [cm] | seeds |\n|---|---|---|\n| <a id="tracking-house"></a>house | 5 (5) | 1 |'
+        in shown
+    )
     assert "lost: house is not here" in shown

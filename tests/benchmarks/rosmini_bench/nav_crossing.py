@@ -129,16 +129,17 @@ def _run(graph: Graph, robots: int, seed: int) -> Crossing:
 
 def table(found: Iterable[Crossing]) -> Iterator[str]:
     """One line of Markdown for each number of robots."""
-    yield "| robots | runs | reached | 95 % | contacts charged | the last after | x real | failures |"
-    yield "|---|---|---|---|---|---|---|---|"
+    yield "| robots | runs | reached | 95% interval | contacts | the last one after | what went wrong |"
+    yield "|---|---|---|---|---|---|---|"
     for robots, group in groupby(sorted(found, key=lambda one: (one.robots, one.seed)), lambda one: one.robots):
         runs = list(group)
         reached = sum(one.reached for one in runs)
         low, high = wilson(reached, robots * len(runs))
-        faster = sum(one.seconds for one in runs) / max(sum(one.cpu for one in runs), 1e-9)
         why = Counter(each for one in runs for each in (*one.failures, *one.charged))
         yield (
-            f"| {robots} | {len(runs)} | {reached} of {robots * len(runs)} | {low:.0%} to {high:.0%} | "
-            f"{sum(len(one.charged) for one in runs)} | {statistics.median(one.seconds for one in runs):.0f} s | "
-            f"{faster:.1f} | {'; '.join(f'{times} x {what}' for what, times in why.most_common())} |"
+            f'| <a id="crossing-{robots}"></a>{robots} | {len(runs)} | {reached} of {robots * len(runs)} | '
+            f"{low:.0%} to {high:.0%} | {sum(len(one.charged) for one in runs)} in "
+            f"{sum(bool(one.charged) for one in runs)} of {len(runs)} runs | "
+            f"{statistics.median(one.seconds for one in runs):.0f} s | "
+            f"{'; '.join(f'{times} x {what}' for what, times in why.most_common())} |"
         )

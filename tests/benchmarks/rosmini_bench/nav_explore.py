@@ -21,7 +21,7 @@ from rosmini.msgs import message_class
 from rosmini.ros.launch import roslaunch
 from rosmini.sim.worlds import world as world_called
 
-from . import nav_quality
+from .nav_charts import label
 from .nav_goals import DISC, Terrain, wilson
 from .nav_trial import LOOK, Watch, place, remove_obstacle
 
@@ -183,29 +183,26 @@ def share(message: Any, start: Pose, world: str) -> float:
     return float(known[rows[inside], columns[inside]].sum() / len(cells))
 
 
-def table(found: Iterable[tuple[Explored, str]]) -> Iterator[str]:
-    """One line of Markdown for each world, method and commit: medians, and of how many runs."""
-    rows: dict[tuple[str, str, str], list[Explored]] = {}
-    for one, commit in found:
-        rows.setdefault((one.place, one.method, commit), []).append(one)
-    heads = (
-        "world | method | ended by itself | 95 % | seen all | seen | least | time | way | goals | contacts | x real"
-        " | commit"
-    )
+def table(found: Iterable[Explored]) -> Iterator[str]:
+    """One line of Markdown for each world and method: medians, and of how many runs."""
+    rows: dict[tuple[str, str], list[Explored]] = {}
+    for one in found:
+        rows.setdefault((one.place, one.method), []).append(one)
+    heads = "world and explorer | ended by itself | 95% interval | saw all | seen | time | path | goals | contacts"
     yield f"| {heads} |"
     yield "|---" * (heads.count("|") + 1) + "|"
-    for (world, method, commit), runs in sorted(rows.items()):
+    for (world, method), runs in sorted(rows.items()):
         ended = sum(one.ended for one in runs)
         low, high = wilson(ended, len(runs))
-        faster = sum(one.seconds for one in runs) / max(sum(one.cpu for one in runs), 1e-9)
         seen, seconds, driven, goals = (
             statistics.median(getattr(one, name) for one in runs) for name in ("share", "seconds", "driven", "goals")
         )
+        anchor = f'<a id="{label(f"{world} {method}")}"></a>'
         yield (
-            f"| {world} | {method} | {ended} of {len(runs)} | {low:.0%} to {high:.0%} | "
-            f"{sum(one.share >= GOOD for one in runs)} of {len(runs)} | {seen:.0%} | "
-            f"{min(one.share for one in runs):.0%} | {seconds:.0f} s | {driven:.0f} m | {goals:.0f} | "
-            f"{sum(one.contacts for one in runs)} | {faster:.1f} | {commit} |"
+            f"| {anchor}{world}, {method} | {ended} of {len(runs)} | {low:.0%} to {high:.0%} | "
+            f"{sum(one.share >= GOOD for one in runs)} of {len(runs)} | {seen:.0%} "
+            f"({min(one.share for one in runs):.0%}) | {seconds:.0f} s | {driven:.0f} m | {goals:.0f} | "
+            f"{sum(one.contacts for one in runs)} |"
         )
 
 
@@ -217,6 +214,5 @@ def run(*, worlds: Iterable[str] = WORLDS, seeds: Iterable[int] = (1,)) -> list[
             for method in FILES:
                 found.append(explore(world, method, seed))
                 print(found[-1].line(), flush=True)
-    for text in table((one, nav_quality.commit()) for one in found):
-        print(text)
+    print(*table(found), sep="\n")
     return found

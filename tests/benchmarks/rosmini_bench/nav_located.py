@@ -2,7 +2,7 @@
 
 `python -m rosmini_bench.nav_located lost house --seeds 1 10` (with PYTHONPATH=tests/benchmarks) adds rows to
 assets/benchmarks/localization.json, each with its seed and commit; without a study it only writes
-`book/localization_figures.md` from them again. `rosmini bench nav` measures the same with a few seeds.
+`book/about/localization_figures.md` from them again. `rosmini bench nav` measures the same with a few seeds.
 """
 
 from __future__ import annotations
@@ -21,15 +21,16 @@ import numpy as np
 
 from rosmini.core.errors import RosminiError
 
-from . import nav_amcl, nav_gmapping, nav_hector
+from . import nav_amcl, nav_charts, nav_gmapping, nav_hector
 from .nav_amcl import CARRIED, HELD, LOST, WITHIN
+from .nav_charts import Mark, chart, label, spoken
 from .nav_drives import accompanied, drive, kidnapped
 from .nav_goals import wilson
 from .nav_quality import commit
 
 ROOT = Path(__file__).resolve().parents[3]
 FILE = ROOT / "assets" / "benchmarks" / "localization.json"
-PAGE = ROOT / "book" / "localization_figures.md"
+PAGE = ROOT / "book" / "about" / "localization_figures.md"
 
 Values = dict[str, float | None]
 
@@ -146,6 +147,8 @@ STUDIES: MappingProxyType[str, Callable[[str, int], Values]] = MappingProxyType(
 )
 HIGHER = ("precision", "recall", "in the ellipse")
 """Of these the worst is the least."""
+DETAILS = ("straight [cm]", "straight [deg]", "turning [deg]", "a scan [ms of CPU]")
+"""These are only in the file."""
 
 # -- rows ----------------------------------------------------------------------------------------------------------
 
@@ -168,6 +171,58 @@ def store(rows: Iterable[Row], file: Path) -> None:
     file.write_text("[\n" + ",\n".join(lines) + "\n]\n", encoding="utf-8")
 
 
+def charts(rows: list[Row]) -> dict[str, str]:
+    """The charts of the page as SVG, by name."""
+    marks = {study: list(_marks(rows, study, *each)) for study, each in CHARTED.items()}
+    found = [Mark("may be anywhere"), *marks["lost"], Mark("was carried away"), *marks["kidnapped"]]
+    mapped = [Mark("gmapping"), *marks["gmapping"], Mark("hector_mapping, no odometry"), *marks["hector"]]
+    return {
+        "amcl_following": chart(
+            marks["tracking"],
+            (0, 5, 10, 15, 20, 25),
+            "Errors of amcl while it follows a robot",
+            f"Mean error of each drive. {spoken(marks['tracking'])}",
+            shown="{:.0f} cm".format,
+        ),
+        "amcl_found": chart(
+            found, (0.5, 0.6, 0.7, 0.8, 0.9, 1.0), "Lost robots that amcl found", f"Shares found. {spoken(found)}"
+        ),
+        "mapping_errors": chart(
+            mapped,
+            (0.0, 0.1, 0.2, 0.3, 0.4, 0.5),
+            "Errors of gmapping and hector_mapping",
+            f"Error of each drive; values above 0.5 m lie at the right edge. {spoken(mapped)}",
+            shown="{:.1f} m".format,
+        ),
+    }
+
+
+CHARTED: MappingProxyType[str, tuple[str, str]] = MappingProxyType(
+    {
+        "tracking": ("off [cm]", "{:.1f} cm"),
+        "lost": ("found [s]", ""),
+        "kidnapped": ("found [s]", ""),
+        "gmapping": ("off [m]", "{:.2f} m"),
+        "hector": ("no odometry [m]", "{:.2f} m"),
+    }
+)
+"""Of each study the value that is charted, and how its median is written."""
+
+
+def _marks(rows: list[Row], study: str, name: str, shown: str) -> Iterator[Mark]:
+    whats: dict[str, list[float | None]] = {}
+    for row in rows:
+        if row.study == study and name in row.values:
+            whats.setdefault(row.what, []).append(row.values[name])
+    for what, values in whats.items():
+        known = tuple(value for value in values if value is not None)
+        if shown:
+            yield Mark(what, shown.format(statistics.median(known)), statistics.median(known), runs=known)
+        else:
+            share, interval = len(known) / len(values), wilson(len(known), len(values))
+            yield Mark(what, f"{len(known)} of {len(values)}", share, interval)
+
+
 def page(rows: list[Row]) -> str:
     """The page, as MyST."""
     lines = INTRODUCTION.splitlines()
@@ -180,7 +235,9 @@ def tables(rows: Iterable[Row]) -> list[str]:
     """The rows of a study as Markdown: a table for each set of values."""
     chosen: dict[tuple[str, ...], dict[str, list[Row]]] = {}
     for row in rows:
-        chosen.setdefault(tuple(row.values), {}).setdefault(row.what, []).append(row)
+        chosen.setdefault(tuple(name for name in row.values if name not in DETAILS), {}).setdefault(
+            row.what, []
+        ).append(row)
     lines: list[str] = []
     for names, whats in chosen.items():
         lines += [*([""] if lines else []), *_table(names, whats)]
@@ -188,40 +245,43 @@ def tables(rows: Iterable[Row]) -> list[str]:
 
 
 def _table(names: tuple[str, ...], chosen: dict[str, list[Row]]) -> Iterator[str]:
-    if names == ("found [s]",):
-        yield "| what | found | 95 % | median | seeds | commit |"
-        yield "|---|---|---|---|---|---|"
-        for what, rows in chosen.items():
-            times = [v for row in rows if (v := row.values["found [s]"]) is not None]
-            low, high = wilson(len(times), len(rows))
-            median = f"{statistics.median(times):.0f} s" if times else ""
-            yield (f"| {what} | {len(times)} of {len(rows)} | {low:.0%} to {high:.0%} | {median} | {_told(rows)} |")
-        return
-    yield f"| what | {' | '.join(names)} | seeds | commit |"
-    yield "|---|" + "---|" * (len(names) + 2)
+    lost = names == ("found [s]",)
+    yield f"| drives | {'found | 95% interval | median' if lost else ' | '.join(names)} | seeds |"
+    yield "|---|" + "---|" * (4 if lost else len(names) + 1)
     for what, rows in chosen.items():
-        cells = []
-        for name in names:
-            values = [v for row in rows if (v := row.values[name]) is not None]
-            worst = min(values) if name in HIGHER else max(values)
-            cells.append(f"{statistics.median(values):.3g} ({worst:.3g})")
-        yield f"| {what} | {' | '.join(cells)} | {_told(rows)} |"
+        cells = list(_found(rows)) if lost else [_middle(name, rows) for name in names]
+        anchor = label(f"{rows[0].study} {what}")
+        yield f'| <a id="{anchor}"></a>{what} | {" | ".join(cells)} | {_seeds(rows)} |'
 
 
-def _told(rows: list[Row]) -> str:
+def _found(rows: list[Row]) -> Iterator[str]:
+    times = [v for row in rows if (v := row.values["found [s]"]) is not None]
+    low, high = wilson(len(times), len(rows))
+    yield f"{len(times)} of {len(rows)}"
+    yield f"{low:.0%} to {high:.0%}"
+    yield f"{statistics.median(times):.0f} s" if times else ""
+
+
+def _middle(name: str, rows: list[Row]) -> str:
+    values = [v for row in rows if (v := row.values[name]) is not None]
+    worst = min(values) if name in HIGHER else max(values)
+    return f"{statistics.median(values):.3g} ({worst:.3g})"
+
+
+def _seeds(rows: list[Row]) -> str:
     seeds = [row.seed for row in rows]
     whole = len(seeds) > 2 and seeds[-1] - seeds[0] == len(seeds) - 1
-    spoken = f"{seeds[0]} to {seeds[-1]}" if whole else ", ".join(map(str, seeds))
-    return f"{spoken} | {', '.join(sorted({row.commit for row in rows}))}"
+    return f"{seeds[0]} to {seeds[-1]}" if whole else ", ".join(map(str, seeds))
 
 
 INTRODUCTION = """# Localisation and mapping in figures
 
-How well do amcl, gmapping and hector_mapping know where the robot is? A driver who knows the truth drives a burger
-through worlds of ours, at 0.2 m/s, with turns on the spot. Its laser sweeps while the robot moves, its wheels slip.
-Each row is drawn from runs that differ in their seed; figures are medians over the runs, and in brackets the worst.
-The tables are made from assets/benchmarks/localization.json; `PYTHONPATH=tests/benchmarks uv run python -m
-rosmini_bench.nav_located lost house --seeds 11 20` drives more.
+How well do amcl, gmapping and hector_mapping know where the robot is? A driver that knows the true pose drives a burger
+through worlds of the simulator at 0.2 m/s, with turns on the spot. The laser measures while the robot moves, and the
+wheels slip. The runs of a row differ in their seed. Each cell shows the median over the runs, and in brackets the worst
+run; each chart shows a small point for each run, and a large one for the median. The rows are stored in
+`assets/benchmarks/localization.json` with the commit of each, and chapters that quote a number link to its row here.
+`PYTHONPATH=tests/benchmarks uv run python -m rosmini_bench.nav_located lost house --seeds 11 20` drives more.
 """
 
 WORDS: MappingProxyType[str, str] = MappingProxyType(
@@ -229,76 +289,76 @@ WORDS: MappingProxyType[str, str] = MappingProxyType(
         "tracking": """
 ## amcl: following a robot
 
-From within 0.1 m and 6 degrees of the truth, with the parameters of `turtlebot3_navigation`. *People*: three walk
-along, and stop every fifth beam or so. *In the ellipse*: how often the truth was in the 95 % ellipse that amcl
-publishes; the cubes of its laser model are no probabilities, and nobody has tuned this. The driver goes around what
-can be pushed, which is not in the map, and backs off from what it meets; a wheel that slips in between is told by no
-model of odometry.
+```{drawing} amcl_following
+<a id="chart-following"></a>Figure 1: The mean error of amcl on each drive. The pose is known at the start
+```
+
+The first pose is within 0.1 m and 6 degrees of the truth, and the parameters are those of `turtlebot3_navigation`.
+*People*: three people walk beside the robot and hide about every fifth beam. *In the ellipse*: how often the true pose
+was inside the 95% ellipse of the published covariance. The map does not show crates that can be pushed; the driver goes
+around them.
 """,
         "lost": f"""
 ## amcl: a robot that may be anywhere
 
-Found is who is within {WITHIN:.0f} s of driving closer than 0.3 m to the truth, and stays so for {HELD:.0f} s. These
-parameters are of our choice:
+```{{drawing}} amcl_found
+<a id="chart-found"></a>Figure 2: Robots that amcl found. The point is the share, the bar its 95% interval
+```
+
+A robot counts as found if its pose is within 0.3 m of the truth for {HELD:.0f} s, and this begins within
+{WITHIN:.0f} s of driving. These parameters were chosen on seeds 1 to 10:
 
 {{lost}}
 
-Why? In ten drives the true pose was likelier than all of 20,000 others at 198 of 200 scans; what fails is that no
-particle is there. 10,000 of them in a house of 125 m2 are about seven within half a metre and 20 degrees of the truth.
-With a `laser_sigma_hit` of 0.2 or 0.4 these are no likelier than a place where a few walls fit by chance, so the filter
-converges there; with 0.8 they are. `likelihood_field_prob` multiplies the beams, so that over eight updates even so
-wide a bell tells places apart; and a crate that is not in the map costs less. `diff-corrected` spreads the children,
-where `diff` takes a variance for a deviation: over 20 cm they lie 6 cm apart, not 8 mm. The choice was made on seeds
-1 to 10, among some twenty; of the fresh ones 34 of 40 were found, and 31 of 40 of those that were carried away; of
-seeds 51 to 100 42 of 50, and 35 of 50.
+Why these? 10,000 particles in a house of 125 m² are about seven within half a metre and 20 degrees of the true pose.
+With a narrow `laser_sigma_hit` these seven are no likelier than places where a few walls fit by chance, and the filter
+converges there. With 0.8 they are. `likelihood_field_prob` multiplies the beams instead of adding their cubes, so eight
+updates tell the places apart even with so wide a bell. `diff-corrected` spreads the copies of a particle further than
+`diff`, which takes a variance for a standard deviation.
 
-Who is not found has mostly settled in the hall or in a corridor, the wrong way round: both look the same from both
-ends, and the next burst of random particles that could tell them apart comes late. Of fourteen other choices that were
-tried on seeds 1 to 50, 15 beams and a `laser_z_rand` of 0.5 found most: 46 of 50, and 40 of 50 of those that were
-carried away. On the fresh seeds 51 to 100 that was 42 and 40 of 50: no better where anything is possible, and a little
-better after a kidnapping. More beams (60), a longer interval (16) or a narrower bell found 38 to 42 of the first 50.
+Robots that were not found mostly settled in the hall or in a corridor, turned by half a circle: both look the same from
+both ends.
 """,
         "kidnapped": f"""
 ## amcl: a robot that was carried away
 
-After {CARRIED:.0f} s it is set down somewhere else, and its odometry notices nothing. The parameters are those above.
-The share of random particles is what the fast average of the likelihood has lost against the slow one, and both begin
-again after each resampling that used it. So the first scan after a burst says what counts as good: where it
-happens to be a bad one, the next burst waits for the fast average to fall below that, by a tenth an update. With a
-narrow bell likelihoods differ by powers of ten from scan to scan, and of the bursts that follow in 120 s there
-are three; with a wide one they differ less, and the few random particles near the truth win. Of one wide bell
-(0.6 to 1.2) or another 8 or 9 of seeds 1 to 10 were found, with one of 0.4 it was 6 or 7; a `resample_interval` of 20
-and an `update_min_d` of 0.03 found 5.
+After {CARRIED:.0f} s somebody sets the robot down elsewhere; its odometry does not notice. The parameters are those
+above. amcl adds random particles while the fast average of the likelihood is below the slow one, and begins both again
+after a resampling that used them. With a narrow bell the likelihood differs by powers of ten from scan to scan, so that
+only a few such moments occur in two minutes. With a wide bell it differs less, and the few random particles near the
+true pose win.
 """,
         "gmapping": """
 ## gmapping
 
-Distances from the truth along the path, aligned at the start; revisits are pairs of scans over 60 apart, taken within
-a metre; precision and recall of occupied cells within two. The original, with its defaults: on log_house 0.105 m,
-revisits 0.036 m, 0.80 and 0.73, 65 ms a scan; on csail (a real robot; the truth is what the original found) neighbours
-0.046 m and 0.35 degrees, revisits 0.070 m and 0.5 degrees, 109 ms. *Ours* takes a scan each 0.2 m or 0.25 rad, and
+```{drawing} mapping_errors
+<a id="chart-mapping"></a>Figure 3: Errors along the path of each drive, for gmapping and for hector_mapping without
+odometry. Errors above 0.5 m lie at the right edge
+```
+
+Errors are distances from the true path, aligned at its start. *Revisits* are pairs of scans over 60 scans apart taken
+within a metre; *precision* and *recall* are those of occupied cells, within two cells. `log_house` is a drive that the
+original gmapping was given, too: with its default parameters it was 0.105 m off, with revisits of 0.036 m, a precision
+of 0.80 and a recall of 0.73. *csail* is a log of a real robot, and its truth is the path that the original found; the
+original scores 0.046 m between neighbours and 0.070 m at revisits. *Ours* takes a scan every 0.2 m or 0.25 rad, and
 beams up to 3 m.
 
-An end counts here only where the cell before it is free. The original means to ask that, too, but looks in a wrong
-place, so that every end counts. This is why csail falls short of the original. Without the test it is level: over
-seeds 0 to 3 neighbours 0.042 to 0.047 m, revisits 0.063 to 0.071 m. But maps of the house are worse without it:
-log_house 0.093 m (worst 0.115), revisits 0.035 m, precision 0.90 and recall 0.88 over seeds 0 to 4, still no worse than
-the original; with our parameters seeds 2 to 4 were 0.09 to 0.14 m off, with a precision of 0.86 to 0.88 and a recall
-of 0.76 to 0.85. So the test stays.
+A beam's end counts here only if the cell before it is free. The original means to ask this but looks up another cell,
+so every end counts there. With this test csail is a little worse, and maps of the house are better, so it stays.
 
-*Office* and *maze* are fresh drives of 240 s past people, on which nothing was tuned. Their walls count here whether
-the robot came past them or not, and inside, so that recall is low for any mapper. In the office even precision
-is: the path is 0.3 to 0.4 m off.
+*Office* and *maze* are drives of 240 s past people, on which nothing was tuned. All walls count, seen or not, so the
+recall is low for any mapper.
 """,
         "hector": """
 ## hector_mapping
 
-The root of the mean square over 120 s in the house, by how fast the robot turns, and whether the laser sweeps while it
-does; log_house turns at 1.2 rad/s, and the original comes to 0.021 m there with the odometry as start, and is lost
-without it. It is lost here, too: a scan that is 14 degrees from the one before is beyond what its matcher climbs.
+Errors are root mean squares over drives of 120 s in the house. Rows differ in how fast the robot turns, and in whether
+the laser sweeps while it turns. `log_house` turns at 1.2 rad/s: hector_mapping is lost there without odometry, and so
+is the original, because a scan that is turned by 14 degrees is further away than its matcher can climb. With odometry
+as the start value the original is 0.021 m off.
 
-The robot stands for a second before it drives off. *Off at once* it does not: then the first scan may be taken in a
-turn, which a sweep bends by up to 6 degrees. The whole map is turned by that, and so is the path against the truth.
+The robot stands still for a second before it drives off. In rows with *off at once* it does not. Then the first scan
+may be taken in a turn and be bent by the sweep; the whole map is turned by that, and so is the path.
 """,
     }
 )
@@ -349,7 +409,10 @@ def main() -> None:
             row = measured(args.study, args.what, seed)
             print(row, flush=True)
             store([*load(args.rows), row], args.rows)
-    PAGE.write_text(write(load(args.rows)), encoding="utf-8")
+    rows = load(args.rows)
+    PAGE.write_text(write(rows), encoding="utf-8")
+    for name, svg in charts(rows).items():
+        nav_charts.write(name, svg)
 
 
 if __name__ == "__main__":

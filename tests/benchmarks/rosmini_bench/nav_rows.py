@@ -1,15 +1,17 @@
-"""The book's page about how well the stack navigates: tables of the drives that `nav_study` wrote into a file.
+"""The book's page about how well the stack navigates: charts and tables of the drives that `nav_study` wrote.
 
 PYTHONPATH=tests/benchmarks uv run python -m rosmini_bench.nav_rows
 """
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable
+import itertools
+import statistics
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from . import nav_crossing, nav_explore, nav_quality
+from . import nav_charts, nav_crossing, nav_explore, nav_quality
+from .nav_charts import Mark, label
 from .nav_crossing import Crossing
 from .nav_explore import GOOD, Explored
 from .nav_goals import wilson
@@ -18,98 +20,158 @@ from .nav_trial import FIELD, Outcome, Setup
 
 ROOT = Path(__file__).resolve().parents[3]
 FILE = ROOT / "assets" / "benchmarks" / "navigation.jsonl"
-PAGE = ROOT / "book" / "navigation_figures.md"
+PAGE = ROOT / "book" / "about" / "navigation_figures.md"
+LEAST = 10
+"""A row of fewer goals says little, and is left out."""
 
-Row = tuple[Setup, list[Outcome], str]
-"""The goals of one setup and commit."""
+Rows = dict[Setup, list[Outcome]]
 
 
-def rows(lines: Iterable[Line]) -> list[Row]:
-    """The goals of each setup and commit, by their numbers."""
-    found: dict[tuple[Setup, str], list[Outcome]] = {}
+def rows(lines: Iterable[Line]) -> Rows:
+    """The goals of each setup by their numbers; of two drives to the same goal the later one."""
+    found: dict[Setup, dict[int, Outcome]] = {}
     for line in lines:
         if isinstance(line.result, Outcome) and line.setup is not None:
-            found.setdefault((line.setup, line.commit), []).append(line.result)
-    made = [
-        (setup, sorted(outcomes, key=lambda one: one.errand.number), commit)
-        for (setup, commit), outcomes in found.items()
-    ]
-    return sorted(made, key=lambda row: (_order(row[0]), row[2]))
+            found.setdefault(line.setup, {})[line.result.errand.number] = line.result
+    return {
+        setup: [each[number] for number in sorted(each)]
+        for setup, each in sorted(found.items(), key=lambda one: _order(one[0]))
+        if len(each) >= LEAST
+    }
 
 
-def _order(setup: Setup) -> tuple[bool, bool, str, float, str, int]:
+def _order(setup: Setup) -> tuple[bool, str, bool, str, float, str, int]:
     """Careful ones first, of burgers before waffles, the planners' defaults before others."""
-    return (
-        not setup.careful,
-        bool(setup.overrides),
-        setup.localization + setup.model,
-        setup.gap or 0.0,
-        setup.words,
-        setup.seed,
-    )
+    overrides, place = bool(setup.overrides), setup.world + setup.without + "narrow" * setup.narrow
+    return not setup.careful, setup.model, overrides, place, setup.gap or 0.0, setup.localization, setup.seed
+
+
+def _usual(setup: Setup) -> bool:
+    """Whether it is a burger with the careful file in a world as it is."""
+    return setup == Setup(setup.world, localization=setup.localization, seed=setup.seed) and setup.world != FIELD
+
+
+# -- charts and tables -------------------------------------------------------------------------------------------------
+
+
+def charts(lines: list[Line]) -> dict[str, str]:
+    """The charts of the page as SVG, by name."""
+    goals = rows(lines)
+    usual = _marks({setup: found for setup, found in goals.items() if _usual(setup)})
+    gaps = [
+        _mark(f"{setup.gap:g} widths", setup, found)
+        for setup, found in goals.items()
+        if setup.world == FIELD and setup.careful
+    ]
+    seen = [
+        Mark(f"{place}, {method}", f"{statistics.median(shares):.0%}", statistics.median(shares), runs=tuple(shares))
+        for (place, method), runs in _explored(lines).items()
+        for shares in [[one.share for one in runs]]
+    ]
+    tenths, fifths = (0.9, 0.92, 0.94, 0.96, 0.98, 1.0), (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
+    return {
+        "navigation_goals": nav_charts.chart(
+            usual, tenths, "Goals reached", f"Goals reached with the careful files. {nav_charts.spoken(usual)}"
+        ),
+        "navigation_gaps": nav_charts.chart(
+            gaps, fifths, "Goals reached between cylinders", f"Goals reached by gap. {nav_charts.spoken(gaps)}"
+        ),
+        "exploring": nav_charts.chart(
+            seen, fifths[2:], "What explorers have seen", f"Median of the share seen. {nav_charts.spoken(seen)}"
+        ),
+    }
+
+
+def _marks(goals: Rows) -> list[Mark]:
+    names = {"fake_localization": "true pose", "amcl": "amcl"}
+    return [
+        _mark(f"{setup.world}, {names[setup.localization]}, seed {setup.seed}", setup, found)
+        for setup, found in goals.items()
+    ]
+
+
+def _mark(name: str, setup: Setup, found: list[Outcome]) -> Mark:
+    one = nav_quality.row(setup, found)
+    return Mark(name, f"{one.reached} of {one.count}", one.reached / one.count, (one.low, one.high))
+
+
+def _explored(lines: list[Line]) -> dict[tuple[str, str], list[Explored]]:
+    found: dict[tuple[str, str], list[Explored]] = {}
+    for line in lines:
+        if isinstance(line.result, Explored):
+            found.setdefault((line.result.place, line.result.method), []).append(line.result)
+    return dict(sorted(found.items()))
 
 
 def page(lines: list[Line]) -> str:
     """The page, as MyST."""
     goals = rows(lines)
-    failed = [
-        (setup, one)
-        for setup, found, _ in goals
-        for one in found
-        if setup.careful and (not one.reached(*nav_quality.tolerances(setup)) or one.contacts)
-    ]
-    explored = [(line.result, line.commit) for line in lines if isinstance(line.result, Explored)]
+    explored = _explored(lines)
     crossed = [line.result for line in lines if isinstance(line.result, Crossing)]
+    usual = {setup: found for setup, found in goals.items() if _usual(setup)}
+    field = {setup: found for setup, found in goals.items() if setup.world == FIELD}
+    others = {setup: found for setup, found in goals.items() if setup not in usual and setup not in field}
     made = [
-        INTRODUCTION, *_table(row for row in goals if row[0].world != FIELD), "", *_together(goals), "", CYLINDERS,
-        *_table(row for row in goals if row[0].world == FIELD), "", EXPLORING, *nav_explore.table(explored), "",
-        CROSSING, *nav_crossing.table(crossed), "", FAILURES, "| setup | goal | from | to | result | driven | C |",
-        "|---|---|---|---|---|---|---|", *(_failure(setup, one) for setup, one in failed), "", CAUSES,
+        INTRODUCTION, *_table(usual), "", *_together(usual), "", OTHERS, *_table(others), "",
+        CYLINDERS, *_table(field), "", exploring(explored), *nav_explore.table(itertools.chain(*explored.values())), "",
+        CROSSING, *nav_crossing.table(crossed), "", FAILURES, *_failures(goals), "", "</details>", "", CAUSES,
     ]  # fmt: skip
     return "\n".join(made)
 
 
-def _table(found: Iterable[Row]) -> list[str]:
-    head = "| setup | reached | 95 % | contacts | length | 95th | time | 95th | off | commit |"
-    lines = [head, "|---|---|---|---|---|---|---|---|---|---|"]
-    for setup, outcomes, commit in found:
+def _table(goals: Rows) -> Iterator[str]:
+    yield "| setup | reached | 95% interval | contacts | length | time | off |"
+    yield "|---|---|---|---|---|---|---|"
+    for setup, outcomes in goals.items():
         one = nav_quality.row(setup, outcomes)
-        figures = [_number(each) for each in (one.stretch, one.stretch95, one.slowness, one.slowness95)]
+        figures = [_both(one.stretch, one.stretch95), _both(one.slowness, one.slowness95)]
         off = "" if one.off != one.off else f"{one.off * 100:.0f} cm"
-        lines.append(
-            f"| {one.what} | {one.reached} of {one.count} | {one.low:.0%} to {one.high:.0%} | {one.contacts} | "
-            f"{' | '.join(figures)} | {off} | {commit} |"
-        )
-    return lines
-
-
-def _together(found: list[Row]) -> Iterable[str]:
-    """A sentence for each commit and localisation: the goals of burgers with the careful file, in all worlds."""
-    sums: dict[tuple[str, str], list[int]] = {}
-    for setup, outcomes, commit in found:
-        if setup == _usual(setup):
-            one = sums.setdefault((setup.localization, commit), [0, 0, 0])
-            row = nav_quality.row(setup, outcomes)
-            for place, more in enumerate((row.reached, row.count, row.contacts)):
-                one[place] += more
-    worlds = Counter((setup.localization, commit) for setup, _, commit in found if setup == _usual(setup))
-    for (localization, commit), (reached, count, contacts) in sums.items():
-        if worlds[localization, commit] < len(nav_quality.WORLDS):
-            continue
-        low, high = wilson(reached, count)
         yield (
-            f"- Burgers, careful, {localization}, {commit}, all worlds together: {reached} of {count} reached "
-            f"({reached / count:.1%}; 95 %: {low:.1%} to {high:.1%}), contacts on the way to {contacts}."
+            f'| <a id="{label(setup.words)}"></a>{setup.words} | {one.reached} of {one.count} | '
+            f"{one.low:.0%} to {one.high:.0%} | {one.contacts} | {' | '.join(figures)} | {off} |"
         )
 
 
-def _usual(setup: Setup) -> Setup:
-    """A burger with the careful file, in the same world with the same localisation."""
-    return Setup(setup.world, localization=setup.localization, seed=setup.seed)
+def _both(median: float, high: float) -> str:
+    return "" if median != median else f"{median:.2f} ({high:.2f})"
 
 
-def _number(value: float) -> str:
-    return "" if value != value else f"{value:.2f}"
+def _together(goals: Rows) -> Iterator[str]:
+    """A sentence for each localisation and seed that was driven in all worlds: the goals of all of them."""
+    sums: dict[tuple[str, int], list[nav_quality.Row]] = {}
+    for setup, outcomes in goals.items():
+        sums.setdefault((setup.localization, setup.seed), []).append(nav_quality.row(setup, outcomes))
+    for (localization, seed), found in sums.items():
+        if len(found) == len(nav_quality.WORLDS):
+            reached, count = sum(one.reached for one in found), sum(one.count for one in found)
+            low, high = wilson(reached, count)
+            yield (
+                f"- All worlds, {localization}, seed {seed}: {reached} of {count} reached ({reached / count:.1%}; "
+                f"95% interval {low:.1%} to {high:.1%}), contacts on the way to {sum(one.contacts for one in found)}."
+            )
+
+
+def exploring(runs: dict[tuple[str, str], list[Explored]]) -> str:
+    """The text above the table of the explorers, with the sums that it tells."""
+    inside = [one for (place, _), each in runs.items() if place in ("house", "maze") for one in each]
+    office = sorted(one.share for (place, _), each in runs.items() if place == "office" for one in each)
+    return EXPLORING.format(
+        good=f"{GOOD:.0%}",
+        full=f"{sum(one.share >= GOOD for one in inside)} of {len(inside)}",
+        ended=f"{sum(one.ended for one in inside)} of {len(inside)}",
+        most=f"{max(office, default=0):.0%}",
+        least=f"{min(office, default=0):.0%}",
+        quarter=f"{office[len(office) // 4] if office else 0:.0%}",
+    )
+
+
+def _failures(goals: Rows) -> Iterator[str]:
+    yield "| setup | goal | from | to | result | driven | contacts |"
+    yield "|---|---|---|---|---|---|---|"
+    for setup, outcomes in goals.items():
+        for one in outcomes if setup.careful else ():
+            if not one.reached(*nav_quality.tolerances(setup)) or one.contacts:
+                yield _failure(setup, one)
 
 
 def _failure(setup: Setup, one: Outcome) -> str:
@@ -121,123 +183,134 @@ def _failure(setup: Setup, one: Outcome) -> str:
     return f"| {setup.words} | {one.errand.number} | {' | '.join(places)} | {why} | {driven} | {len(one.contacts)} |"
 
 
-INTRODUCTION = """# Navigation in figures
+# -- text --------------------------------------------------------------------------------------------------------------
 
-How often does the navigation stack of this book get a robot to its goal? Here a burger, and a waffle, were sent to
-goals drawn at random with the parameter files of `turtlebot3_navigation`, the same for all worlds. Starts and
-goals are where a disc of 0.20 m has room, at least 3 m apart, with any heading. The laser turns five times a second,
-its beams are taken while the robot moves, and have noise. `fake_localization` says where the robot is, or amcl where
-that stands in the row. Reached means that `move_base` said SUCCEEDED, and that the true pose was within the
-tolerances; with amcl, which is some centimetres off itself, within 0.25 m and 0.3 rad. *Off* is the median of the true
-distance from the goal. The interval is Wilson's. Contacts are the goals on whose way the robot drove into something,
-as the engine counts them.
+INTRODUCTION = f"""# Navigation in figures
 
-Length is what was driven, over the shortest path that keeps 0.15 m from everything in the map; time is what it
-took, over that path at full speed with its turns. Both are medians and 95th percentiles of the goals that were
-reached. What was asked for is 98 % reached (97 % with amcl) and no contact; a length of 1.15 in the median and 1.4 at
-the 95th percentile; a time of 1.4 in the median. Look at the lower ends of the intervals before you say that a row
-shows it: careful burgers were sent to 200 goals a world and seed, the others to far fewer. Seed 7 is the one whose
-failures were looked at, and for which `careful.yaml` was chosen; seed 23 came after that, and nothing was changed for
-it. One drive of it, goal 152 of the maze, was driven again: two studies had written the map into one file, and the
-robot never started.
+How often does the Navigation Stack of this book bring a robot to its goal? These charts and tables are made from
+{{}} drives in worlds of the simulator, which are stored in `assets/benchmarks/navigation.jsonl` with the seed
+and the commit of each. Chapters that quote a number link to its row here.
 
-Rows called *careful* were driven with `careful:=true`, which loads `param/careful.yaml` over these files. A row is of
-one commit: what was mended between two is told at the end of this page. The tables were generated from the rows in
-`assets/benchmarks/navigation.jsonl`. `PYTHONPATH=tests/benchmarks python -m rosmini_bench.nav_study FILE house=0-199`
-drives more of them.
+## Goals in the house, the maze and the office
+
+```{{drawing}} navigation_goals
+<a id="chart-goals"></a>Figure 1: Goals that a burger with the careful files reached. The point is the share,
+the bar its 95% interval
+```
+
+A burger was sent to goals drawn at random, at least 3 m away, with any heading. Around its start and its goal a disc of
+0.20 m has room. The parameter files are the same in all worlds: those of `turtlebot3_navigation`, with
+`careful:=true`, which loads `param/careful.yaml` after them. The laser turns five times a second, measures while the
+robot moves, and is noisy. The robot's pose comes from the simulator (`fake_localization`) or from `amcl`.
+
+How to read the table:
+
+- **Reached**: `move_base` reported `SUCCEEDED`, and the true pose was within the goal tolerance. With `amcl`, which has
+  an error of its own, 0.25 m and 0.3 rad are allowed.
+- **95% interval**: Wilson's interval for the share. Two rows whose intervals overlap do not differ for certain.
+- **Contacts**: the number of goals on whose way the robot drove into something.
+- **Length**: the driven path divided by the shortest path that keeps 0.15 m from everything in the map. **Time**: the
+  time divided by that of the shortest path at full speed. Each cell shows the median of the reached goals, and in
+  brackets the 95th percentile.
+- **Off**: the median of the true distance from the goal at the end.
+
+The parameters of `careful.yaml` were chosen while we looked at the failures of seed 7. Seed 23 was driven afterwards,
+and nothing was changed for it. Rows of fewer than {LEAST} goals are only in the file.
+`PYTHONPATH=tests/benchmarks uv run python -m rosmini_bench.nav_study FILE house=0-199` drives more.
+"""
+
+OTHERS = """## Other robots, planners and files
+
+*Narrower places* are starts and goals with less room. *No sweep* means that all beams are measured at the same moment.
+Rows without *careful* use only the files in the form of ROBOTIS's.
 """
 
 CYLINDERS = """## Between cylinders that are not in the map
 
-Gaps are in widths of the burger, 0.21 m. The planner knows of a cylinder when the laser sees it.
+```{drawing} navigation_gaps
+<a id="chart-gaps"></a>Figure 2: Goals reached between cylinders, by the width of the gaps
+```
+
+Gaps are measured in widths of the burger, 0.21 m. The planner learns of a
+cylinder when the laser sees it. In narrow gaps the robot gives up without touching anything.
 """
 
-EXPLORING = f"""## Exploring
+EXPLORING = """## Exploring
 
-Both explorers use gmapping with its default of 30 particles and `careful:=true`. explore_lite abandons a frontier
-after 120 s without progress: in the house a frontier can be close in a straight line and far to drive. *Seen* is the
-share of the cells reachable by a disc of 0.20 m that the final map knows: the median, the least, and how many runs
-saw {GOOD:.0%} of them.
+```{{drawing}} exploring
+<a id="chart-exploring"></a>Figure 3: What share of the reachable floor each run has seen: a small point for each run,
+a large one for the median
+```
 
-In the house and the maze 79 of 80 runs saw 97 % or more, and 79 ended by themselves; the last one was still running
-after 40 minutes, with all but 0.1 % seen. One run in the house (frontier_exploration, seed 2) touched something three
-times. With ten particles and an older frontier search it was 73 of 80: two maps of the maze came out crooked, with
-walls across the remaining corridors.
+Both explorers use gmapping with 30 particles, its default, and `careful:=true`. explore_lite gives up a frontier after
+120 s without progress, because in the house a frontier may be close in a straight line and far to drive. *Seen* is the
+share of the cells that the robot can reach and that the final map knows: the median, and in brackets the least. *Saw
+all* counts the runs that saw {good} or more.
 
-Both methods fall short in the office. Three of its rooms, a fifth of the floor, have doors that open and shut. A
-robot that passes a shut door maps a wall there, and a wall is not a frontier, so 79 % is the most that a robot can
-see unless it passes at the right moment. A quarter of the runs ended with less than 74 %, the least with 50 %; these
-runs have not been investigated. Without the doors (five seeds, measured earlier with ten particles) half of the runs
-see 95 % or more. One of the others was investigated (frontier_exploration, seed 1): people stood in two doorways when
-the robot passed, and the map has walls there. No explorer here re-examines what it has mapped as a wall, and neither
-do the originals.
+In the house and the maze {full} runs saw {good} or more, and {ended} ended by themselves.
+
+In the office both explorers leave rooms out: the best run saw {most}, a quarter saw less than {quarter}, and the worst
+{least}. Three rooms have doors that open and shut. A robot that passes a shut door maps a wall there, and a wall is not
+a frontier. Walking people in a doorway have the same effect. Neither explorer looks at a wall a second time, and nor do
+the originals.
 """
 
-CROSSING = """## Robots that cross one another
+CROSSING = """## Robots that cross one another's paths
 
-Burgers in the house, each with amcl, are sent at once to where another one began. Reached is as with amcl above. A
-contact is charged to each that moved faster than 0.02 m/s when it began. In one run of ten two met at a door, each as
-fast as it drives: to either planner the other stands still where the last scan saw it. They touched, and one gave up.
+Burgers in the house, each with its own `amcl`, are sent at the same moment to where another one began. A contact is
+charged to each robot that moved faster than 0.02 m/s when it began. In the run with contacts two robots met at a door:
+each planner takes the other robot for an obstacle that stands still where the last scan saw it.
 """
 
 FAILURES = """## Each failure of a careful robot
 
-Of careful robots; the others' are in their rows. `C` are contacts: how often the robot drove into something, or turned
-along what cannot move.
+<details><summary>Goals that were not reached, or reached with a contact</summary>
 """
 
 CAUSES = """## Where it fails, and why
 
-Failing drives were looked at one by one: costmaps, plan, and what each critic rejected. `explain()` tells it
-({doc}`../notebooks/7_navigation/90_move_base`). The causes, and what `careful.yaml` does about them:
+We looked at each failure of seed 7: the costmaps, the plan, and why the local planner rejected each velocity
+(`explain()`, see {doc}`../../notebooks/7_navigation/90_move_base`). The chapter
+{doc}`../../notebooks/7_navigation/95_tune_and_fix` shows how to find and fix such faults. These are the causes, with
+what `careful.yaml` changes:
 
-- **The footprint.** A burger's has an inscribed radius of 5 cm with padding, since its origin is near its front, and
-  that is all that a plan keeps. So plans lead where the sides have no room: between the legs of a chair, through a
-  gap of two robot widths. The local planner, which looks at all four edges, refuses. *Careful* plans for a disc.
-- **No way back.** A robot with its nose 3 cm before something can neither drive on nor turn: at 0.05 m/s ahead or
-  turning at 0.3 rad/s it is in the obstacle within the 1.7 s that are looked ahead, and slower or backwards our files
-  do not allow (ROBOTIS's allow backwards). No recovery changes that. *Careful* allows -0.1 m/s. Lower least speeds were
-  tried, too: with them robots crept on one spot until they counted as oscillating, in the office and between cylinders
-  where they arrive with 0.05 m/s and 0.3 rad/s.
-- **People.** Walkers came as near as 1 cm beside a robot, and waited for it for good, while it could not leave since
-  their cells overlapped its outline. Now they keep 0.3 m on all sides, and go back after 5 s.
-- **The window.** The controller is drawn to where the plan leaves its costmap. In one of 3 m that was behind the end of
-  a wall that the plan goes around with more room: along the plan it would have gone away from there at first, so that
-  it turned on the spot for 20 s and more. *Careful* has a window of 2 m: goal 0 of the office took 81 s in place of
-  199 s, without a recovery.
-- **Ghosts.** A beam that meets nothing clears nothing unless `inf_is_valid` is set. Where the way behind them is longer
-  than the 3.5 m of the laser, walkers leave a trail of obstacles. *Careful* sets it.
-- **Doors.** One that was seen to open hides the free way behind its leaf, where the costmap keeps its former positions.
-  Only a reset while the door stands open helps. At 7b7d41a 6 of 170 goals in the office failed at one door (48, 55, 77,
-  133, 139, 165: the copy room), for two reasons. A door that opened onto a robot shut again at once, and both waited
-  for good: since 8961c56 it stands ajar for as long as it would have stood open. And recoveries rotated for 11 s, in
-  which nothing is planned, while the door stood open for 10: *careful* rotates once now, and plans for 10 s between
-  two. One of 200 still fails (seed 7, 74): the robot stands so close to the hinge's side that the door stops at 38
-  degrees, and what is left of the opening is too narrow for a plan.
-- **Standing still.** In the maze two of 200 of seed 7 count as oscillating, one of them (95) 24 cm from anything, with
-  a free plan before it. Why was not found.
-- **Corners.** Goal 6 of seed 23 in the office begins behind the end of a wall, 3 cm from it, with somebody beside it:
-  240 of 338 sampled velocities would touch, and none of the others gets away.
-- **Cells.** In a costmap of 5 cm an outline is up to 5 cm too wide. Close to a thing, noise of the laser puts a marked
-  cell under it, and every way on is refused, also the way out. Goals 5 and 14 between cylinders failed so. Since
-  8961c56 *careful* has cells of 2.5 cm around the robot: all of 20 goals at 2.0 widths were reached, and 4 of 10 at
-  1.6 (none of 3 before), at no cost in CPU time that could be measured (17.6 times real time after 18.2, on a loaded
-  machine). At 1.2 widths the robot looks for a way until its time is over, and touches nothing.
-- **Where it begins.** amcl is told where the robot is, give or take 0.5 m, as by default. In the entrance of the house
-  (goal 26) the scan fits nearly as well 0.8 m on, and amcl, to which both places are one cluster, said something
-  between, 0.4 to 0.6 m off: so near to a wall that no plan was found.
-- **Chairs.** With amcl the robot of goal 5 in the house came between a chair's legs and a desk, where a disc has no
-  room: the controller, which looks at the outline, went there, and the planner found no way out.
-- **The crow.** explore_lite measures progress towards a frontier in a straight line, and gives frontiers up while the
-  robot drives to them around walls.
+- **Footprint.** The origin of a burger is near its front, so the inscribed radius of its footprint is only 5 cm.
+  A global plan keeps only this distance, and leads through places where the sides have no room, such as between the
+  legs of a chair. The local planner checks the whole footprint and refuses to drive there. *Careful* plans for a disc.
+- **No way back.** A robot whose front is 3 cm from an obstacle cannot drive forward, and cannot turn either. *Careful*
+  allows -0.1 m/s, as ROBOTIS's files do.
+- **Walking people.** They came so close that their cells overlapped the footprint, and they waited for the robot,
+  which could not leave. In the simulator they now keep 0.3 m away, and turn back after 5 s.
+- **Local costmap.** The local planner is drawn to the point where the plan leaves its costmap. In a window of 3 m that
+  point may lie behind a wall that the plan goes around, so the robot turned on the spot. *Careful* uses 2 m.
+- **Ghosts.** A beam that hits nothing clears nothing unless `inf_is_valid` is set, so people leave a trail of obstacles
+  in wide rooms. *Careful* sets it.
+- **Doors.** The costmap keeps the earlier positions of a door that was seen while it opened. *Careful* plans for 10 s
+  between two recoveries, rotates only once, and clears the costmap more often.
+- **Cells.** In a costmap with cells of 5 cm, an outline may be 5 cm too wide. Noise then marks a cell under the robot,
+  and every way out is refused. *Careful* uses 2.5 cm in the local costmap.
+- **First pose.** `amcl` is told the pose to about 0.5 m. In the entrance of the house the scan fits nearly as well
+  0.8 m further on, and the published mean lies between the two.
+- **Frontiers.** explore_lite measures progress in a straight line, so it gives up a frontier while the robot drives
+  around a wall to reach it.
+- **Not explained.** In the maze, two robots count as oscillating although their way is free. In the office, a few
+  robots start in a corner from which nearly every sampled velocity would touch something.
 
-`carrot_planner` plans no way around a wall: it goes straight to the last free place before it.
+`carrot_planner` does not plan around walls: it drives straight to the last free place in front of them.
 """
 
 
+def write(lines: list[Line]) -> str:
+    """The page with the number of drives in it."""
+    return page(lines).replace("{}", f"{len(lines):,}", 1)
+
+
 def main() -> None:
-    """Write the page."""
-    PAGE.write_text(page(load(FILE)), encoding="utf-8")
+    """Write the page and its charts."""
+    lines = load(FILE)
+    PAGE.write_text(write(lines), encoding="utf-8")
+    for name, svg in charts(lines).items():
+        nav_charts.write(name, svg)
 
 
 if __name__ == "__main__":

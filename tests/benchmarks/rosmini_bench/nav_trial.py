@@ -100,7 +100,10 @@ class Setup:
     def words(self) -> str:
         """A row's name."""
         where = self.world if self.gap is None else f"cylinders, gaps of {self.gap:g} widths"
-        changed = "".join(f", {name.rpartition('/')[2]} {value}" for name, value in self.overrides)
+        changed = "".join(
+            f", {value.rpartition('/')[2]}" if name.endswith("_planner") else f", {name.rpartition('/')[2]} {value}"
+            for name, value in self.overrides
+        )
         sweep, care = "" if self.sweep else ", no sweep", ", careful" if self.careful else ""
         told = "" if self.localization == "fake_localization" else f", {self.localization}"
         gone = f", without {self.without}s" if self.without else ""
