@@ -64,7 +64,7 @@ UNSTABLE = {
     "a warning with a path": re.compile(r"Warning: .*\n\s+warnings\.warn"),
 }
 # Calls whose output nbval cannot compare.
-UNCOMPARABLE = re.compile(r"\b(clear_output|display_id\s*=|interact\(|interactive\(|(?:widgets\.)?Output\(\))")
+UNCOMPARABLE = re.compile(r"\b(clear_output|display_id\s*=|interactive\(|(?:widgets\.)?Output\(\))")
 
 
 def read(path: Path) -> nbformat.NotebookNode:

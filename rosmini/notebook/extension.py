@@ -129,6 +129,7 @@ OWN_MAGICS: tuple[tuple[str, str, Callable[..., object]], ...] = (
     ("line", "show", looking.show),
     ("line", "record", looking.record),
     ("line", "replay", looking.replay),
+    ("line", "drag", looking.drag),
     ("line", "click", looking.click),
 )
 """Magics for notebooks only: the kind, the name, and the function, which takes the session and the texts."""

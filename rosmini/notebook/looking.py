@@ -1,4 +1,4 @@
-"""Magics for looking at simulations and for clicking in RViz: ``%show``, ``%record``, ``%replay``, ``%click``.
+"""Magics that take the place of windows: ``%show``, ``%record``, ``%replay``, ``%drag``, and ``%click`` in RViz.
 
 They take names of nodes and topics, so that a cell needs no object of rosmini. Each returns its result: after
 ``run = %replay``, ``run.recording`` has the recorded arrays.
@@ -129,6 +129,23 @@ def replay(session: Session, line: str) -> Replay:
     return _displayed(session, _replay(session.recorders, given, layers))
 
 
+def drag(session: Session, line: str) -> None:
+    """Put a robot or a movable object elsewhere, as with the mouse in a simulator's window: ``%drag "crate" X Y YAW``.
+
+    X and Y are in the frame of the world [m]; the yaw is the heading [rad].
+    """
+    parser = Parser(
+        "%drag", '%drag "NAME" X Y [YAW]', "Put a robot or an object elsewhere.", example='  %drag "crate" 1 0.5'
+    )
+    given, pose = _with_pose(session, parser, line, "give a name, x and y, and a heading")
+    (name, program), *others = _simulations(session, []).items()
+    if others:
+        raise UsageError(f"%drag needs one simulation, and there are {1 + len(others)}")
+    if not isinstance(program, Simulation):
+        raise UsageError(f"nothing in {name} can be dragged")
+    program.drag(given.words[0], pose)
+
+
 def click(session: Session, line: str) -> Click:
     """Use a tool of RViz at a point: ``%click "2D Nav Goal" X Y YAW``.
 
@@ -142,26 +159,32 @@ def click(session: Session, line: str) -> Click:
     )  # fmt: skip
     parser.add_option("-f", "--fixed-frame", metavar="FRAME", help="the frame of the point")
     parser.add_option("-d", "--display-config", metavar="FILE", help="a .rviz file")
-    words = words_of(line, "click", session.shell.user_ns)
-    numbers = [float(word) for word in words if _NUMBER.fullmatch(word)]  # -2 would be an option
-    given = parser.parse([word for word in words if not _NUMBER.fullmatch(word)])
-    if len(given.words) != 1 or len(numbers) not in (2, 3):
-        parser.error("give a tool, x and y, and for a pose its yaw")
-    session.attach()
-    text = _click(_tools(session, given.display_config, given.fixed_frame), given.words[0], numbers)
+    given, pose = _with_pose(session, parser, line, "give a tool, x and y, and for a pose its yaw")
+    text = _click(_tools(session, given.display_config, given.fixed_frame), given.words[0], pose)
     session.graph.scheduler.yield_to_others()
     session.say(text)
     return _without_echo(session, Click(text=text))
 
 
-def _click(tools: Tools, name: str, numbers: Sequence[float]) -> str:
+def _with_pose(session: Session, parser: Parser, line: str, needed: str) -> tuple[Values, tuple[float, float, float]]:
+    """Return what a line says: options and one word, and a pose whose yaw may be missing."""
+    session.attach()
+    words = words_of(line, parser.get_prog_name().lstrip("%"), session.shell.user_ns)
+    numbers = [float(word) for word in words if _NUMBER.fullmatch(word)]  # -2 would be an option
+    given = parser.parse([word for word in words if not _NUMBER.fullmatch(word)])
+    if len(given.words) != 1 or len(numbers) not in (2, 3):
+        parser.error(needed)
+    x, y, yaw = (*numbers, 0.0)[:3]
+    return given, (x, y, yaw)
+
+
+def _click(tools: Tools, name: str, pose: tuple[float, float, float]) -> str:
     from rosmini.viz.rviz.tools import PoseTool, PublishingTool
 
     tool = tools[name]
-    x, y, yaw = (*numbers, 0.0)[:3]
     if isinstance(tool, PublishingTool):
         _await_subscriber(tool)
-    return tool.set_pose(x, y, yaw) if isinstance(tool, PoseTool) else tool.click((x, y))
+    return tool.set_pose(*pose) if isinstance(tool, PoseTool) else tool.click(pose[:2])
 
 
 def _await_subscriber(tool: PublishingTool) -> None:

@@ -18,6 +18,31 @@ KINDS = {"Button": "button", "FloatSlider": "slider", "IntSlider": "slider", "Ch
 def register(shell: Any) -> None:
     """Show widgets as forms from now on. Does not import ipywidgets."""
     shell.display_formatter.mimebundle_formatter.for_type_by_name("ipywidgets.widgets.widget", "Widget", bundle)
+    shell.events.register("pre_run_cell", _before_cell)
+
+
+def _before_cell(info: Any) -> None:
+    """Replace the widgets that ``interact`` makes, before a cell that imports ipywidgets runs."""
+    if "ipywidgets" not in info.raw_cell:
+        return
+    from IPython.core.display_functions import display
+    from ipywidgets import HBox, interact, interactive
+
+    show: Any = display
+
+    class StillInteractive(interactive):  # type: ignore[misc]
+        """A form, and the output of the function for the first values; a widget for output would be empty."""
+
+        def update(self, *_: Any) -> None:
+            """Do nothing before the form is shown."""
+
+        def _ipython_display_(self) -> None:
+            show(bundle(HBox(self.children[:-1])), raw=True)  # the last one is the output
+            result = self.f(**{each._kwarg: each.get_interact_value() for each in self.kwargs_widgets})  # noqa: SLF001
+            if result is not None:
+                show(result)
+
+    interact.cls = StillInteractive
 
 
 def bundle(widget: Any) -> dict[str, str]:

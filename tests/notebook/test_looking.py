@@ -1,4 +1,4 @@
-"""``%show``, ``%record``, ``%replay`` and ``%click``, and the option ``--quiet``."""
+"""``%show``, ``%record``, ``%replay``, ``%drag`` and ``%click``, and the option ``--quiet``."""
 
 from __future__ import annotations
 
@@ -60,10 +60,24 @@ def test_a_bag_is_replayed(notebook: Notebook, tmp_path: Path) -> None:
         ('%click "2D Nav Gaol" 1 2 0', "2D Nav Goal"),
         ('%click "2D Nav Goal" 1', "yaw"),
         ("%click 1 2", "tool"),
+        (f'{ROBOT}\n%drag "crate"', "heading"),
+        (f'{ROBOT}\n%drag "crat" 1 0.5', "burger"),
+        (f'{ROBOT}\n%drag "sofa" 1 0.5', "fixed"),
+        ("%drag crate 1 0", "no simulation"),
+        ("%rosrun turtlesim turtlesim_node\n%drag turtle1 1 2", "dragged"),
     ],
 )
 def test_an_error_names_what_to_do(notebook: Notebook, cell: str, named: str) -> None:
     assert named in notebook.fails(cell)
+
+
+def test_robots_and_objects_are_dragged(notebook: Notebook) -> None:
+    notebook.ok(f"import rosmini\n{ROBOT}")
+    written = notebook.ok('%drag "crate" 1.1 -0.05\n%drag burger 0.5 -0.1 1.57\nrosmini.wait(0.5)\n%show')
+    assert "burger: pose (0.50, -0.10" in written
+    notebook.ok("import rospy\nfrom sensor_msgs.msg import LaserScan\nrospy.init_node('reader')")
+    written = notebook.ok("print(rospy.wait_for_message('scan', LaserScan).ranges[270] < 0.6)")
+    assert written == "True\n"
 
 
 def test_a_click_is_a_message_of_rviz_and_waits_for_a_subscriber(notebook: Notebook) -> None:

@@ -22,6 +22,12 @@ def test_buttons_are_a_form_in_the_book(book_notebook):
     assert "disabled" in data["text/html"]
 
 
+def test_interact_is_a_form_and_the_output_for_the_first_values(book_notebook):
+    book_notebook.ok("from ipywidgets import interact\ndef show(r=0.6, s=5): print(f'r {r}, s {s}')")
+    written = book_notebook.ok("_ = interact(show, r=(0.1, 1.0, 0.1), s=(1, 20))")
+    assert written == "ipywidgets: r, s\nr 0.6, s 5\n"
+
+
 def test_a_widget_that_has_no_form_is_named(book_notebook):
     data, _ = book_notebook.shell.display_formatter.format(ipywidgets.ColorPicker())
     assert "ColorPicker" in data["text/plain"]
