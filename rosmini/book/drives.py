@@ -52,7 +52,8 @@ class Drive(Trial):
         packages = PackageIndex()
         try:
             path = str(Path("answer.launch").resolve())
-            plan = read(text=text, path=path, args={}, packages=packages, environ=os.environ)
+            environ = {"TURTLEBOT3_MODEL": "burger", **os.environ}
+            plan = read(text=text, path=path, args={}, packages=packages, environ=environ)
             self.launch = Launch(plan, self.graph, in_graph(self.graph, packages, capture_output=True))
             self.launch.start()
             self.graph.run(0.1)

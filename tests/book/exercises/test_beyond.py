@@ -1,4 +1,4 @@
-"""The chapter Beyond: what it says of the three graphs holds."""
+"""The chapter Beyond: what it says of the graphs and drives holds."""
 
 from __future__ import annotations
 
@@ -12,16 +12,18 @@ def test_the_robot_arrived_on_a_map_that_grew(figures):
 
 
 def test_what_the_explorer_and_the_teleoperation_add(figures):
-    assert "4 nodes" in figures[2]
-    _, new = figures[3].split("new: ")
+    assert "5 nodes" in figures[4]
+    _, new = figures[5].split("new: ")
     assert new.startswith("/amcl, /explore_client, /explore_server, ")
     assert "-> /cmd_vel ->" not in new
-    assert figures[4].endswith(
-        "new: /turtlebot3_teleop_keyboard, /turtlebot3_teleop_keyboard -> /cmd_vel -> /simulator"
-    )
+    assert figures[6].endswith("new: /turtlebot3_teleop_keyboard, /turtlebot3_teleop_keyboard -> /cmd_vel -> /gazebo")
 
 
 def test_the_master_says_why_the_older_nodes_ended(cells):
     said = all_printed(cells)
     for name in ("turtlebot3_slam_gmapping", "move_base"):
         assert f"[/{name}] Reason: new node registered with same name" in said
+
+
+def test_the_explorer_finished_after_the_person_had_driven(cells):
+    assert "Finished exploring room" in all_printed(cells)
