@@ -38,8 +38,8 @@ WEIGHT_UNITS = 1 << 48
 CONVERGENCE_DISTANCE = 0.5
 """Convergence threshold: all particles lie within this distance [m] of their mean, along x and along y."""
 
-Uniform = Callable[[int], Floats]
-"""A function that draws a given number of poses (n, 3) uniformly from the free cells of a map."""
+Draw = Callable[[int], Floats]
+"""A function that draws a given number of poses (n, 3) from the free cells of a map."""
 
 
 @dataclass(frozen=True)
@@ -51,6 +51,12 @@ class Cluster:
     covariance: Floats
     """Covariance (3, 3) of x, y [m2] and heading (circular: minus twice the logarithm of the mean's length)."""
     count: int
+
+
+def draw_by_weight(weights: Floats, count: int, random: np.random.Generator) -> Ints:
+    """Draw `count` indices with probabilities in proportion to `weights` (n,), which add up to 1."""
+    ends = np.cumsum(np.rint(weights * WEIGHT_UNITS).astype(np.int64))
+    return np.searchsorted(ends, random.integers(ends[-1], size=count), side="right")
 
 
 class ParticleFilter:
@@ -97,7 +103,7 @@ class ParticleFilter:
         drawn[:, 2] = normalize_angle(drawn[:, 2])
         self._set_particles(drawn)
 
-    def initialize_uniform(self, uniform: Uniform) -> None:
+    def initialize_uniform(self, uniform: Draw) -> None:
         """Draw all particles uniformly from the free space, for global localisation."""
         self._set_particles(uniform(self.most))
 
@@ -149,20 +155,18 @@ class ParticleFilter:
         limits: Ints = np.clip(np.where(bins <= 1, self.most, found), self.fewest, self.most).astype(np.int64)
         return limits
 
-    def resample(self, uniform: Uniform) -> None:
+    def resample(self, draw: Draw) -> None:
         """Draw particles by weight until there are enough for the number of histogram cells that they occupy.
 
-        Random particles come from `uniform`. With `selective`, do nothing while the effective number is high.
+        Random particles come from `draw`. With `selective`, do nothing while the effective number is high.
         """
         if self.selective and self.effective > 0.5 * len(self.particles):
             return
         share = self.random_share
-        parts = np.rint(self.weights * WEIGHT_UNITS).astype(np.int64)
-        ends = np.cumsum(parts)
-        drawn = self.particles[np.searchsorted(ends, self.random.integers(ends[-1], size=self.most), side="right")]
+        drawn = self.particles[draw_by_weight(self.weights, self.most, self.random)]
         lost = self.random.random(self.most) < share
         if lost.any():
-            drawn[lost] = uniform(int(lost.sum()))
+            drawn[lost] = draw(int(lost.sum()))
         new = np.zeros(self.most, dtype=np.int64)
         new[np.unique(cell_numbers(cells(drawn)), return_index=True)[1]] = 1
         enough = np.flatnonzero(np.arange(1, self.most + 1) > self.limit(np.cumsum(new)))

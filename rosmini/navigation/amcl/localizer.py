@@ -14,7 +14,7 @@ from rosmini.core.geometry.poses import Pose
 from rosmini.core.maps.grid_map import GridMap
 
 from .field import BeamMixture, LikelihoodField
-from .filter import Cluster, ParticleFilter
+from .filter import Cluster, ParticleFilter, draw_by_weight
 from .laser import BeamSkip, LaserModel, Scan
 from .motion import sample_motion_model
 from .parameters import AmclParameters
@@ -135,6 +135,23 @@ class Localizer:
             raise RosminiError(NO_MAP)
         return self.free.draw(count, self.random)
 
+    def _recovery_poses(self, count: int, scan: Scan) -> Floats:
+        """Return poses (count, 3) for random particles: uniform, or chosen among candidates by the scan's likelihood.
+
+        Source of the choice: Lenser and Veloso, "Sensor resetting localization for poorly modelled mobile robots", ICRA
+        2000.
+        """
+        each = self.parameters.recovery_candidates
+        drawn = self._uniform(count * each)
+        if each == 1 or self.field is None:
+            return drawn
+        found = self.model.log_likelihoods(self.field, drawn, scan)
+        top = float(found.max())
+        if not math.isfinite(top):
+            return drawn[:count]
+        weights = np.exp(found - top)
+        return drawn[draw_by_weight(weights / weights.sum(), count, self.random)]
+
     def update(self, laser: str, scan: Scan, odometry: Pose) -> bool | None:
         """Process a scan of the laser `laser`, taken at the pose `odometry`; return whether there is a new estimate.
 
@@ -167,7 +184,7 @@ class Localizer:
         self.updates += 1
         resampled = p.resample_interval > 0 and self.updates % p.resample_interval == 0
         if resampled:
-            self.filter.resample(self._uniform)
+            self.filter.resample(lambda count: self._recovery_poses(count, scan))
         return before is None or resampled
 
     def _has_moved(self, before: Pose, now: Pose) -> bool:

@@ -114,6 +114,13 @@ class AmclParameters(AmclConfig):
 
     allowed = ("bag_scan_period", "tf_prefix")
 
+    recovery_candidates: int = parameter(
+        1,
+        "number of random poses from which the scan's likelihood chooses each random particle (rosmini's own; 1: as "
+        "in the original)",
+        minimum=1,
+        maximum=100,
+    )
     beam_skip_error_threshold: float = parameter(0.9, "if a larger fraction of beams would be ignored, all are used")
     std_warn_level_x: float = parameter(
         0.2, "standard deviation above which `/diagnostics` warns; negative: never", unit="m"

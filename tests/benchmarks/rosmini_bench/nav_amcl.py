@@ -34,6 +34,7 @@ Floats = NDArray[np.float64]
 LOST: dict[str, Any] = {
     "recovery_alpha_slow": 0.001,
     "recovery_alpha_fast": 0.1,
+    "recovery_candidates": 10,
     "max_particles": 10_000,
     "odom_model_type": "diff-corrected",
     "odom_alpha1": 0.1,

@@ -72,19 +72,29 @@ def tracked(what: str, seed: int) -> Values:
 
 
 def lost(what: str, seed: int) -> Values:
-    """After how many seconds a robot that may be anywhere is found."""
-    one = nav_amcl.drives(what, seed, WITHIN + HELD + 5.0)
-    p = replace(nav_amcl.ours(), **LOST)
+    """After how many seconds a robot that may be anywhere is found; `what` is a world, and one of `KINDS`."""
+    world, _, kind = what.partition(", ")
+    one = nav_amcl.drives(world, seed, WITHIN + HELD + 5.0)
+    p = replace(nav_amcl.ours(), **{**LOST, **KINDS[kind]})
     return {"found [s]": _finite(nav_amcl.follow(one, p, seed, lost=True).found())}
 
 
+KINDS: MappingProxyType[str, dict[str, Any]] = MappingProxyType(
+    {
+        "": {},
+        "uniform": {"recovery_candidates": 1},
+        "alphas 0": {"recovery_alpha_slow": 0.0, "recovery_alpha_fast": 0.0},
+    }
+)
+"""What differs from `LOST`."""
+
+
 def carried(what: str, seed: int) -> Values:
-    """After how many seconds a robot is found that somebody has carried away; `what` is a world, and `alphas 0`."""
+    """After how many seconds a robot is found that somebody has carried away; `what` is as in `lost`."""
     world, _, kind = what.partition(", ")
     first = nav_amcl.drives(world, seed + 1000, CARRIED + 5.0)
     one = kidnapped(first, nav_amcl.drives(world, seed, WITHIN + HELD + 5.0), CARRIED)
-    none: dict[str, Any] = {"recovery_alpha_slow": 0.0, "recovery_alpha_fast": 0.0} if kind else {}
-    track = nav_amcl.follow(one, replace(nav_amcl.ours(), **{**LOST, **none}), seed)
+    track = nav_amcl.follow(one, replace(nav_amcl.ours(), **{**LOST, **KINDS[kind]}), seed)
     return {"found [s]": _finite(track.found(CARRIED))}
 
 

@@ -93,6 +93,26 @@ def test_a_robot_that_is_anywhere_is_found():
     assert math.dist(found.estimate().pose[:2], pose[:2]) < 0.15
 
 
+def test_candidates_find_a_robot_that_was_carried_away():
+    """Random particles that the scan has chosen are near the robot at once; uniform ones rarely are."""
+
+    def off(candidates):
+        found = localizer(
+            recovery_alpha_slow=0.001, recovery_alpha_fast=0.1, recovery_candidates=candidates,
+            laser_model_type="likelihood_field_prob",
+        )  # fmt: skip
+        found.initialize((5.0, 3.0, 2.0), SMALL)
+        pose, odometry = (1.0, 1.2, 0.0), (0.0, 0.0, 0.0)
+        found.update("scan", seen(found, (5.0, 3.0, 2.0)), odometry)
+        for _ in range(12):
+            motion = (0.25, 0.0, 0.1)
+            pose, odometry = compose(pose, motion), compose(odometry, motion)
+            found.update("scan", seen(found, pose), odometry)
+        return math.dist(found.estimate().pose[:2], pose[:2])
+
+    assert off(20) < 0.2 < 1.0 < off(1)
+
+
 def test_poses_are_drawn_evenly_from_free_cells():
     free = np.zeros((4, 5), dtype=bool)
     free[1, 2] = free[3, 4] = True
@@ -114,7 +134,9 @@ def test_the_last_bit_changes_nothing(kind):
     """Machines differ in the last bit of sines and exponentials: the same particles are drawn for all that."""
 
     def run(noise):
-        found = localizer(laser_model_type=kind, recovery_alpha_slow=0.001, recovery_alpha_fast=0.1)
+        found = localizer(
+            laser_model_type=kind, recovery_alpha_slow=0.001, recovery_alpha_fast=0.1, recovery_candidates=3
+        )
         found.initialize((1.1, 0.9, 0.1), np.diag([0.04, 0.04, 0.02]))
         pose, odometry = (1.0, 1.0, 0.0), (0.0, 0.0, 0.0)
         random, counts = np.random.default_rng(1), []
