@@ -81,7 +81,6 @@ TO_REWRITE: dict[str, set[str]] = {
     "local_planners": {"lines", "private API"},
     "amcl": {"mentions", "private API"},
     "gmapping": {"lines", "mentions"},
-    "hector_mapping": {"lines", "mentions", "private API"},
     "move_base": {"private API"},
     "navigation_goal": {"private API"},
     "frontier_exploration": {"columns", "lines", "private API"},
