@@ -115,6 +115,18 @@ class Drive(Trial):
         )
 
 
+def settings_of(answer: Any, name: str) -> dict[str, Any]:
+    """Return the parameters in an answer, a text in YAML. Raises `Wrong` if it is no dictionary."""
+    expect_type(answer, str, f"{name} is", "a text")
+    try:
+        settings = yaml.safe_load(answer)
+    except yaml.YAMLError as error:
+        raise Wrong(f"It is not valid YAML: {str(error).splitlines()[0]}", "check the indentation") from error
+    expect_type(settings, dict, "The text contains", "a dictionary of parameters")
+    found: dict[str, Any] = settings
+    return found
+
+
 def courier(answer: Any, name: str, start: Pose) -> tuple[Drive, dict[str, Any]]:
     """Start the Navigation Stack in the house, with an answer as `move_base`'s settings in YAML.
 
@@ -130,12 +142,7 @@ def courier(answer: Any, name: str, start: Pose) -> tuple[Drive, dict[str, Any]]
         Wrong: the answer is no text with a dictionary in YAML.
 
     """
-    expect_type(answer, str, f"{name} is", "a text")
-    try:
-        settings = yaml.safe_load(answer)
-    except yaml.YAMLError as error:
-        raise Wrong(f"It is not valid YAML: {str(error).splitlines()[0]}", "check the indentation") from error
-    expect_type(settings, dict, "The text contains", "a dictionary of parameters")
+    settings = settings_of(answer, name)
     x, y, yaw = start
     text = COURIER.format(x=x, y=y, yaw=yaw, settings=yaml.safe_dump(settings))
     return Drive(text), settings

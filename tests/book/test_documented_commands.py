@@ -122,6 +122,7 @@ FLAG = """%%terminal
 cp /opt/ros/noetic/share/turtlebot3_description/urdf/turtlebot3_burger.urdf.xacro flag.urdf.xacro
 """
 
+STACK = "%roslaunch --quiet rosmini_sim navigation.launch\nimport rosmini\nrosmini.wait(1)"
 GRAPHS: dict[str, tuple[str, ...]] = {
     "topics_and_messages": (ROBOT, TALKER),
     "services": (ROBOT, TALKER),
@@ -134,6 +135,7 @@ GRAPHS: dict[str, tuple[str, ...]] = {
     "odometry": ("%rosrun rosmini_sim simulator _board:=true",),
     "turtlebot3": (ROBOT,),
     "family_and_description": (FLAG,),
+    "costmaps": (STACK,),
 }
 """What runs and which files there are, by page, when the commands of a box are typed."""
 

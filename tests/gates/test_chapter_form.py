@@ -76,7 +76,6 @@ def broken_rules(chapter: str) -> set[str]:
 TO_REWRITE: dict[str, set[str]] = {
     "navigation_stack": {"private API"},
     "maps": {"private API"},
-    "costmaps": {"private API"},
     "global_planners": {"private API"},
     "local_planners": {"lines", "private API"},
     "amcl": {"mentions", "private API"},

@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 import math
-from itertools import product
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 import yaml
 
-from rosmini.book.checks import Wrong, exercise, expect, expect_type
+from rosmini.book.checks import Script, Wrong, exercise, expect, expect_type
+from rosmini.book.drives import Drive, settings_of
 from rosmini.book.trials import Trial
 from rosmini.core.errors import RosminiError
+from rosmini.core.maps import GridMap, save_map
 from rosmini.core.tf import StaticTransformBroadcaster
-from rosmini.msgs.geometry_msgs.msg import Twist
-from rosmini.navigation.costmap_2d import Costmap2D
-from rosmini.navigation.costmap_2d.costmap_ros import CellCosts
-from rosmini.navigation.costmap_2d.footprint import footprint_from_radius, padded, radii
-from rosmini.navigation.costmap_2d.inflation import cost_at, inflated
-from rosmini.navigation.navfn import NavfnSearch
+from rosmini.msgs.geometry_msgs.msg import PointStamped, Twist
+from rosmini.msgs.nav_msgs.msg import OccupancyGrid, Odometry
+from rosmini.msgs.std_msgs.msg import Int8
+from rosmini.navigation.costmap_2d.inflation import cost_at
 from rosmini.ros.scripts import rosrun
 
 # ---- cost: a cost by its distance ----
@@ -45,125 +46,136 @@ def cost(answer: Any) -> Any:
 # ---- door: a door and a gap ----
 
 CELL = 0.05
-DOOR, GAP = (24, 40), (56, 60)
-"""Rows of the openings in the wall: 80 cm and 20 cm."""
-WALL = (58, 61)
-"""Its columns."""
-START, GOAL = (20.0, 57.0), (100.0, 57.0)
+WALL = slice(59, 62)
+"""Columns of the wall between two rooms."""
+GAP, DOOR = slice(50, 54), slice(14, 30)
+"""Rows of its openings: a gap of 20 cm, narrower than a Burger, and a door of 80 cm."""
+START, GOAL = (1.2, 2.6, 0.0), (4.8, 2.6, 0.0)
+MIDDLE_M = 0.12
+"""Largest distance at which the robot may pass the middle of the door [m]."""
+RADII_M = (0.105, 0.2)
+"""Inscribed radii that suit a Burger: half its width, and a little more than the distance of its corners."""
+
+FLAT = """
+<launch>
+  <include file="$(find rosmini_sim)/launch/navigation.launch">
+    <arg name="world" value="{map}"/>
+    <arg name="map_file" value="{map}"/>
+    <arg name="x" value="{x}"/>
+    <arg name="y" value="{y}"/>
+    <arg name="yaw" value="{yaw}"/>
+  </include>
+  <rosparam ns="move_base">
+{settings}
+  </rosparam>
+</launch>
+"""
 
 
-def _apartment() -> Costmap2D:
-    """Two rooms and a wall with a door, and with a gap on the line from start to goal."""
-    grid = Costmap2D(120, 80, CELL)
-    costs = grid.costs
-    costs[[0, -1]] = 254
-    costs[:, [0, -1]] = 254
-    costs[:, WALL[0] : WALL[1]] = 254
-    for low, high in (DOOR, GAP):
-        costs[low:high, WALL[0] : WALL[1]] = 0
-    return grid
+def _flat() -> GridMap:
+    """Return two rooms and a wall with a door, and with a gap on the line from start to goal."""
+    occupancy = np.zeros((80, 120), np.int8)
+    occupancy[[0, 1, -2, -1]] = 100
+    occupancy[:, [0, 1, -2, -1]] = 100
+    occupancy[:, WALL] = 100
+    occupancy[GAP, WALL] = occupancy[DOOR, WALL] = 0
+    return GridMap(occupancy, CELL, (0.0, 0.0, 0.0))
 
 
-@exercise("door", praise="The robot's size closes the gap, and the costs lead the plan through the middle of the door.")
+@exercise("door", praise="The robot's size closes the gap, and the costs lead it through the middle of the door.")
 def door(answer: Any) -> Any:
-    """Three parameters with which the plan passes through the middle of the door."""
-    names = ("robot_radius", "inflation_radius", "cost_scaling_factor")
-    expect_type(answer, dict, "numbers is", "a dictionary from parameter to value")
-    for name in names:
-        expect(name in answer, f"{name} is missing.", "set all three parameters")
-        expect_type(answer[name], (int, float), f"{name} is", "a number")
-    radius, reach, scaling = (float(answer[name]) for name in names)
-    expect(radius >= 0.105, f"The Burger is 21 cm wide; a radius of {radius:g} m is too small.", "use at least 0.105")
-    expect(
-        radius <= 0.2,
-        f"A radius of {radius:g} m is much larger than the Burger, whose corners are about 0.16 m from its centre.",
-        "use at most 0.2",
-    )
-    inscribed, _ = radii(padded(footprint_from_radius(radius), 0.01))
-    costmap = inflated(_apartment(), inscribed_radius=inscribed, inflation_radius=reach, cost_scaling_factor=scaling)
-    search = NavfnSearch(costmap.costs, START, GOAL)
-    search.expand()
-    if not search.arrived:
-        view = costmap.show(title="No path leads through the wall")
-        raise Wrong("There is no path: inflation closes the door.", "the radius must be less than half of 80 cm", view)
-    path = search.path()
-    view = costmap.show(plan=(path + 0.5) * CELL, title="The plan with your numbers")
-    at_wall = path[(path[:, 0] >= WALL[0]) & (path[:, 0] < WALL[1]), 1] + 0.5
-    if (at_wall > sum(DOOR) / 2 + 10).any():
-        raise Wrong(
-            "The plan leads through the gap of 20 cm.",
-            "a cost of 253 closes it: which parameter sets that distance?",
-            view,
+    """Settings with which the robot drives through the middle of the door."""
+    settings = settings_of(answer, "settings")
+    with TemporaryDirectory() as folder:
+        path, _ = save_map(_flat(), Path(folder) / "flat")
+        x, y, yaw = START
+        drive = Drive(FLAT.format(map=path, x=x, y=y, yaw=yaw, settings=yaml.safe_dump(settings)))
+    with drive:
+        radius = drive.graph.nodes["/move_base"].program.global_costmap.inscribed_radius
+        expect(
+            radius >= RADII_M[0],
+            f"The global costmap believes that the inscribed radius is {radius:.3f} m, and the Burger is 21 cm wide.",
+            'robot_radius counts only if footprint is "[]"',
         )
-    off = float(np.abs(at_wall - sum(DOOR) / 2).max()) * CELL
-    if off > 0.1:
-        raise Wrong(
-            f"The plan passes the door {off * 100:.0f} cm from its middle.",
-            "the middle is 40 cm from each post: costs must reach that far and still be above 0 there",
-            view,
+        expect(radius <= RADII_M[1], f"The inscribed radius is {radius:.2f} m: the Burger is smaller.", "use 0.12")
+        track: list[tuple[float, float]] = []
+
+        def follow(message: Any) -> None:
+            track.append((message.pose.pose.position.x, message.pose.pose.position.y))
+
+        drive.graph.node("watch").subscriber("/base_pose_ground_truth", Odometry, follow)
+        drive.expect_arrival(GOAL, 60.0, "costs of 253 close the gap, and must not close the door")
+        middle = (DOOR.start + DOOR.stop) / 2 * CELL
+        left, right = WALL.start * CELL, WALL.stop * CELL
+        off = max(abs(y - middle) for x, y in track if left <= x <= right)
+        expect(
+            off <= MIDDLE_M,
+            f"The robot passes {off * 100:.0f} cm from the middle of the door.",
+            "the middle is 40 cm from each post: costs must reach that far, and still be above 0 there",
         )
-    return view
+        return drive.view()
 
 
-# ---- blocker: which layer ----
+# ---- cost_there: the cost at a point ----
+
+GRID = ((0, 12, 99), (50, 100, -1), (98, 0, 7), (1, 33, 64))
+"""Published costs, the lowest row first."""
+GRID_CELL, GRID_ORIGIN = 0.5, (-1.0, 2.0)
+OUTSIDE = ((-1.1, 2.3), (0.6, 2.3), (-0.9, 1.9), (-0.9, 4.1), (30.0, 30.0))
 
 
-class _Costmap:
-    """A costmap with the costs of its layers, as in `Costmap2DROS`."""
-
-    def __init__(self, layers: dict[str, int | None]) -> None:
-        known = [cost for cost in layers.values() if cost is not None]
-        self.grid = Costmap2D(20, 10, 0.05, (-1.0, 2.0))
-        self.grid.costs[3, 5] = max(known, default=0)
-        self._layers = layers
-
-    def explain(self, mx: int, my: int) -> CellCosts:
-        here = (mx, my) == (5, 3)
-        return CellCosts(self.grid, mx, my, {n: (cost if here else 0, "") for n, cost in self._layers.items()})
-
-
-@exercise("blocker", praise="The answer names the cause: the map, the laser, or the inflation.")
-def blocker(answer: Any) -> Any:
-    """The lowest layer that blocks a point; None if no layer does, and outside the costmap."""
-    names = ("static_layer", "obstacle_layer", "inflation_layer"), ("walls", "sonar", "people", "inflation")
-    for layers in names:
-        for costs in product((None, 0, 200, 253, 254), repeat=len(layers)):
-            wanted = next((n for n, c in zip(layers, costs, strict=True) if c in (253, 254)), None)
-            told = dict(zip(layers, costs, strict=True))
-            got = answer(_Costmap(told), -0.73, 2.16)
+@exercise("cost_there", praise="Your node finds the cell of any point.")
+def cost_there(answer: Script) -> None:
+    """A node that answers a point with the cost published for its cell."""
+    answers: list[int] = []
+    with Trial(is_shown=False) as trial:
+        desk = trial.graph.node("desk")
+        costmap = desk.publisher("/move_base/global_costmap/costmap", OccupancyGrid, queue_size=1, latch=True)
+        costmap.publish(_grid())
+        desk.subscriber("cost", Int8, lambda message: answers.append(message.data))
+        question = desk.publisher("question", PointStamped, queue_size=5)
+        trial.start(answer)
+        trial.run(1.0)
+        left, bottom = GRID_ORIGIN
+        inside = [
+            ((left + GRID_CELL * i + 0.1, bottom + GRID_CELL * j + 0.4), value)
+            for j, row in enumerate(GRID)
+            for i, value in enumerate(row)
+        ]
+        outside = [(point, -1) for point in OUTSIDE]
+        for (x, y), wanted in (*inside, *outside):
+            answers.clear()
+            message = PointStamped()
+            message.header.frame_id = "map"
+            message.point.x, message.point.y = x, y
+            question.publish(message)
+            trial.run(0.3)
+            expect(answers, f"There was no answer for ({x:.1f}, {y:.1f}).", "publish once for each question")
+            where = "outside the grid" if (x, y) in OUTSIDE else "inside the grid"
             expect(
-                got == wanted,
-                f"The layers say {told}: the answer is {wanted or 'None'}, not {got!r}.",
-                "go through costmap.explain(mx, my).items(), which starts with the lowest layer; a cost may be None",
+                answers == [wanted],
+                f"The answer for ({x:.1f}, {y:.1f}), {where}, was {answers}, not [{wanted}].",
+                "subtract the origin, divide by the resolution, and round down; the row counts first",
             )
-    full = _Costmap({"static_layer": 254})
-    for x, y in ((-0.5, 2.16), (-0.73, 2.3)):
-        got = answer(full, x, y)
-        expect(got is None, f"No layer blocks ({x}, {y}), but you return {got!r}.", "use world_to_map")
-    for x, y in ((-1.02, 2.16), (0.2, 2.16), (-0.73, 1.9)):
-        got = answer(full, x, y)
-        expect(got is None, f"({x}, {y}) is outside, but you return {got!r}.", "world_to_map returns None")
-    return None
+
+
+def _grid() -> Any:
+    grid = OccupancyGrid()
+    grid.header.frame_id = "map"
+    grid.info.resolution, grid.info.width, grid.info.height = GRID_CELL, len(GRID[0]), len(GRID)
+    grid.info.origin.position.x, grid.info.origin.position.y = GRID_ORIGIN
+    grid.info.origin.orientation.w = 1.0
+    grid.data = [value for row in GRID for value in row]
+    return grid
 
 
 # ---- params: a parameter file with faults ----
 
 
-def _of(answer: Any) -> dict[str, Any]:
-    expect_type(answer, str, "params is", "the text of a parameter file")
-    try:
-        read = yaml.safe_load(answer)
-    except yaml.YAMLError as error:
-        raise Wrong(f"It is not valid YAML: {str(error).splitlines()[0]}", "check the indentation") from error
-    expect_type(read, dict, "The file contains", "a dictionary of parameters")
-    settings: dict[str, Any] = read
-    return settings
-
-
 @exercise("params", praise="Your costmap marks, clears and inflates obstacles, and moves with the robot.")
 def params(answer: Any) -> Any:
     """A local costmap with a rolling window that marks, clears and inflates."""
-    read = _of(answer)
+    read = settings_of(answer, "params")
     with Trial(is_shown=False) as trial:
         graph = trial.graph
         StaticTransformBroadcaster(graph.node("state")).send("base_footprint", "base_scan", (-0.03, 0, 0.18))

@@ -5,6 +5,10 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from rosmini.book.checks import Script
+
+from .file_system import wrong
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -64,33 +68,41 @@ def _inscribed_first(d: float, r: float, R: float, s: float) -> int:
     return 254 if d == 0 else 253 if d <= r else 0 if d > R else int(252 * math.exp(-s * (d - r)))
 
 
-def _numbers(radius: Any, reach: Any, scaling: Any) -> Callable[[], dict[str, Any]]:
-    return lambda: {
-        "robot_radius": radius, "inflation_radius": reach, "cost_scaling_factor": scaling,
-    }  # fmt: skip
+DOOR = """
+global_costmap:
+  footprint: "[]"
+  robot_radius: 0.12
+"""
+
+COST_THERE = """
+import math
+
+import rospy
+from geometry_msgs.msg import PointStamped
+from nav_msgs.msg import OccupancyGrid
+from std_msgs.msg import Int8
+
+def on_question(question):
+    info, corner = grid.info, grid.info.origin.position
+    column = math.floor((question.point.x - corner.x) / info.resolution)
+    row = math.floor((question.point.y - corner.y) / info.resolution)
+    if 0 <= column < info.width and 0 <= row < info.height:
+        cost.publish(grid.data[row * info.width + column])
+    else:
+        cost.publish(-1)
+
+rospy.init_node("dispatcher")
+name = "/move_base/global_costmap/costmap"
+grid = rospy.wait_for_message(name, OccupancyGrid)
+cost = rospy.Publisher("cost", Int8, queue_size=1)
+rospy.Subscriber("question", PointStamped, on_question)
+rospy.spin()
+"""
 
 
-def _blocker(
-    values: tuple[int, ...] = (253, 254), *, last: bool = False, names: tuple[str, ...] = ()
-) -> Callable[[], Any]:
-    def blocker(costmap: Any, x: float, y: float) -> str | None:
-        cell = costmap.grid.world_to_map(x, y)
-        if cell is None:
-            return None
-        found = [n for n, c in costmap.explain(*cell).items() if c in values and (not names or n in names)]
-        return None if not found else found[-1] if last else found[0]
-
-    return lambda: blocker
-
-
-def _everywhere(costmap: Any, x: float, y: float) -> str | None:
-    cell = costmap.grid.world_to_map(x, y)
-    return next((n for n, c in costmap.explain(*cell).items() if c in (253, 254)), None)
-
-
-def _one_cell(costmap: Any, x: float, y: float) -> str | None:
-    del x, y
-    return next((n for n, c in costmap.explain(5, 3).items() if c in (253, 254)), None)
+def _script(old: str, new: str) -> Callable[[], Script]:
+    assert old in COST_THERE, old
+    return lambda: Script("cost_there.py", COST_THERE.replace(old, new))
 
 
 MISTAKES: dict[str, list[Callable[[], object]]] = {
@@ -104,22 +116,23 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
         lambda: _inscribed_first,
     ],
     "door": [
-        lambda: (0.12, 0.6, 5.0),
-        lambda: {"robot_radius": 0.12, "inflation_radius": 0.6},
-        _numbers(0.051, 0.6, 5.0),
-        _numbers(0.12, 0.2, 5.0),
-        _numbers(0.12, 0.6, 40.0),
-        _numbers(0.35, 0.6, 5.0),
-        _numbers("0.12", 0.6, 5.0),
+        lambda: {"global_costmap": {"robot_radius": 0.12}},
+        lambda: "",
+        wrong(DOOR, '  footprint: "[]"\n'),
+        wrong(DOOR, "0.12", "0.05"),
+        wrong(DOOR, "0.12", "0.35"),
+        wrong(DOOR, "0.12", "0.12\n  inflation_radius: 0.2"),
+        wrong(DOOR, "0.12", "0.12\n  cost_scaling_factor: 40.0"),
+        wrong(DOOR, "0.12", "wide"),
     ],
-    "blocker": [
-        _blocker((254,)),
-        _blocker((200, 253, 254)),
-        _blocker(last=True),
-        _blocker(names=("static_layer", "obstacle_layer", "inflation_layer")),
-        lambda: _everywhere,
-        lambda: _one_cell,
-        lambda: print,
+    "cost_there": [
+        _script("row * info.width + column", "column * info.height + row"),
+        _script("(question.point.x - corner.x)", "question.point.x"),
+        _script("math.floor((question.point.y", "int((question.point.y"),
+        _script("        cost.publish(-1)", "        pass"),
+        _script("0 <= column < info.width and 0 <= row < info.height", "True"),
+        _script(" / info.resolution", " / 0.05"),
+        _script("row * info", "(info.height - 1 - row) * info"),
     ],
     "params": [
         lambda: {"rolling_window": True},
