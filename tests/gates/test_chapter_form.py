@@ -85,7 +85,6 @@ TO_REWRITE: dict[str, set[str]] = {
     "frontier_exploration": {"columns", "lines", "private API"},
     "explore_lite": {"private API"},
     "many_turtlebots": {"columns", "hints", "lines", "private API"},
-    "the_wire": {"lines"},
 }
 
 
