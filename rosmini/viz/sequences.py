@@ -21,6 +21,8 @@ HEAD = 30.0
 ROW = 32.0
 GAP = 150.0
 """Minimum distance between two participants [px]."""
+LOOP = 34.0
+"""Distance of the label of a loop from the line of its participant [px]."""
 
 
 def sequence_diagram(calls: Iterable[Call], *, title: str | None = None, name: str = "sequence") -> Picture:
@@ -31,17 +33,12 @@ def sequence_diagram(calls: Iterable[Call], *, title: str | None = None, name: s
         title: the caption, and the first words of the text form.
         name: the first words of the text form without a title.
 
-    Participants are in order of appearance. Raises ``ViewError`` without calls, and if a participant calls itself.
+    Participants are in order of appearance; what one sends to itself is a loop. Raises ``ViewError`` without calls.
 
     """
     made = [(who, whom, what, answer) for who, whom, what, answer in calls]
     if not made:
         raise ViewError("a sequence diagram needs at least one call: (who, whom, what, answer)")
-    for who, whom, what, _ in made:
-        if who == whom:
-            raise ViewError(
-                f"{who} cannot call itself ({what}): a sequence diagram shows calls between two participants"
-            )
     actors = list(dict.fromkeys(one for call in made for one in call[:2]))
     arrows = [one for call in made for one in _arrows(call)]
     head = f"{title or name}: {len(made)} calls between {len(actors)}"
@@ -98,10 +95,16 @@ def _columns(actors: Sequence[str], arrows: Sequence[Arrow]) -> list[float]:
         x = at[-1] + max(GAP, names)
         for source, target, label, _ in arrows:
             left, right = sorted((actors.index(source), actors.index(target)))
-            if right == index:
+            if right == index and left < right:
                 x = max(x, at[left] + text_width(label, style.LABEL_SIZE) + 28)
+            elif left == right == index - 1:
+                x = max(x, at[left] + _loop_width(label))
         at.append(x)
     return at
+
+
+def _loop_width(label: str) -> float:
+    return LOOP + text_width(label, style.LABEL_SIZE) + 16
 
 
 def _draw(actors: Sequence[str], arrows: Sequence[Arrow], title: str, alt: str) -> str:
@@ -112,7 +115,8 @@ def _draw(actors: Sequence[str], arrows: Sequence[Arrow], title: str, alt: str) 
         ends = columns[actors.index(source)], columns[actors.index(target)]
         parts.append(_message(ends, HEAD + ROW * row, label, is_answer))
     moved = element("g", "".join(parts), transform=f"translate({MARGIN:g},{MARGIN:g})")
-    width = columns[-1] + text_width(actors[-1], style.TEXT_SIZE) / 2 + 12
+    last = [_loop_width(label) for source, target, label, _ in arrows if source == target == actors[-1]]
+    width = columns[-1] + max([text_width(actors[-1], style.TEXT_SIZE) / 2 + 12, *last])
     return document(
         moved, width=width + 2 * MARGIN, height=bottom + 2 * MARGIN, title=title, alt=alt, css=_css(), colours=COLOURS
     )
@@ -127,9 +131,14 @@ def _actor(actor: str, x: float, bottom: float) -> str:
 
 def _message(ends: tuple[float, float], y: float, label: str, is_answer: bool) -> str:
     begin, end = ends
-    third = (end - begin) / 3
-    route = Route(((begin, y), (begin + third, y), (end - third, y), (end, y)), None)
-    words = text(label, (begin + end) / 2, y - 6, size=style.LABEL_SIZE, colour="label")
+    if begin == end:
+        out = begin + LOOP
+        route = Route(((begin, y - 8), (out, y - 8), (out, y + 8), (begin, y + 8)), None)
+        words = text(label, out, y + 4, size=style.LABEL_SIZE, colour="label", anchor=None)
+    else:
+        third = (end - begin) / 3
+        route = Route(((begin, y), (begin + third, y), (end - third, y), (end, y)), None)
+        words = text(label, (begin + end) / 2, y - 6, size=style.LABEL_SIZE, colour="label")
     return element("g", arrow(route) + words, class_="rm-answer" if is_answer else "rm-call")
 
 

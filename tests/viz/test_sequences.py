@@ -4,7 +4,8 @@ import xml.etree.ElementTree as ET
 
 import pytest
 
-from rosmini.viz import ViewError, sequence_diagram
+from rosmini.viz import ViewError, sequence_diagram, style
+from rosmini.viz.metrics import text_width
 
 SVG = "{http://www.w3.org/2000/svg}"
 CALLS = [
@@ -47,7 +48,19 @@ def test_names_are_text_and_no_markup():
     assert groups(picture, "rm-actor") == ["<a>", "b & c"]
 
 
-@pytest.mark.parametrize(("calls", "said"), [([], "at least one"), ([("a", "a", "f", None)], "itself")])
-def test_what_cannot_be_drawn_is_refused(calls, said):
-    with pytest.raises(ViewError, match=said):
-        sequence_diagram(calls, title="it")
+def test_what_one_sends_to_itself_is_a_loop_with_room_for_its_label():
+    label = "a name that is longer than the distance of two lines"
+    picture = sequence_diagram([("a", "b", "f", None), ("b", "b", label, None)])
+    assert picture.text.endswith(f"  b -> b: {label}")
+    [loop] = [each for each in ET.fromstring(picture.svg).iter(f"{SVG}g") if "".join(each.itertext()) == label]
+    [words] = loop.iter(f"{SVG}text")
+    assert float(words.get("x")) + text_width(label, style.LABEL_SIZE) < width(picture)
+
+
+def width(picture):
+    return float(ET.fromstring(picture.svg).get("viewBox").split()[2])
+
+
+def test_a_diagram_needs_calls():
+    with pytest.raises(ViewError, match="at least one"):
+        sequence_diagram([], title="it")

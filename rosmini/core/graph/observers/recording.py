@@ -103,8 +103,14 @@ def _is_wanted(event: Event, nodes: set[str], subjects: set[str]) -> bool:
 
 
 def _calls(events: Iterable[Event]) -> Iterator[Call]:
-    """Yield the calls that a sequence diagram draws; an immediate answer is merged with its request."""
-    shown = [event for event in events if event.kind != "publication" and event.who != event.whom]
+    """Yield the calls that a sequence diagram draws; an immediate answer is merged with its request.
+
+    Of what a node sends to itself only messages are drawn.
+    """
+    shown = [
+        event for event in events
+        if event.kind != "publication" and (event.who != event.whom or event.kind in ("delivery", "loss"))
+    ]  # fmt: skip
     joined: set[int] = set()
     for event, following in zip_longest(shown, shown[1:]):
         if event.kind == "answer" and event.cause in joined:

@@ -92,6 +92,17 @@ def test_a_span_of_time_and_a_limit(graph):
     assert recording.show(limit=2).text.startswith("What happened (and 5 more calls after these): 2 calls")
 
 
+def test_a_message_from_a_node_to_itself_is_recorded_but_not_its_connection(graph):
+    server = graph.node("server")
+    goals = server.publisher("goal", String)
+    server.subscriber("goal", String, lambda _: None)
+    with graph.record() as recording:
+        graph.run(0.1)
+        goals.publish("there")
+        graph.run(0.1)
+    assert recording.calls("/goal") == [("/server", "/server", "/goal: 'there'", None)]
+
+
 def test_a_misspelt_name_is_answered_with_the_nearest(graph):
     recording = graph.record()
     with pytest.raises(RosminiError, match=r"nothing was recorded about /chater: let time pass"):
