@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from rosmini.core.errors import ROSException, RosminiError, UsageError, nearest
@@ -107,14 +106,13 @@ def replay(session: Session, line: str) -> Replay:
     """Stop the recording and show it in a player; topics are drawn as layers over the world.
 
     ``%replay /map /plan`` also shows a map and a plan, ``%replay "*"`` every topic that can be drawn; ``--3d`` shows
-    robots in three dimensions; ``--end`` shows the end first; ``%replay drive.bag`` plays a bag or an MCAP file.
+    robots in three dimensions; ``%replay drive.bag`` plays a bag or an MCAP file.
     """
     parser = Parser(
-        "%replay", "%replay [--3d | --end] [-f FRAME] [TOPIC ...] | [FILE.bag ...]", "Play the recording, or bags.",
+        "%replay", "%replay [--3d] [-f FRAME] [TOPIC ...] | [FILE.bag ...]", "Play the recording, or bags.",
         example="  %replay /map",
     )  # fmt: skip
     parser.flag("--3d", dest="solid", help="in three dimensions")
-    parser.flag("--end", dest="at_end", help="show the end first, instead of the start")
     parser.add_option("-f", "--frame", metavar="FRAME", help="the frame of the layers (default: map, odom or world)")
     parser.add_option("--robot", metavar="MODEL", help="the model of a bag's robot, such as burger")
     given = _parsed(session, parser, line)
@@ -152,8 +150,8 @@ def click(session: Session, line: str) -> Click:
     """Use a tool of RViz at a point: ``%click "2D Nav Goal" X Y YAW``.
 
     X and Y are in the fixed frame [m]: map, or odom if there is no map, unless ``-f FRAME`` names another one. The
-    yaw is the direction in which the mouse is dragged [rad]. ``-d FILE`` takes the tools of a .rviz file. In the
-    window of ``%rviz --live`` the mouse does the same.
+    yaw is the direction in which the mouse is dragged [rad]. ``-d FILE`` takes the tools of a .rviz file. Without
+    these options an open window of ``%rviz --live`` is clicked, where the mouse does the same.
     """
     parser = Parser(
         "%click", '%click "TOOL" X Y [YAW] [-f FRAME] [-d FILE]', "Use a tool of RViz at a point.",
@@ -196,12 +194,16 @@ def _await_subscriber(tool: PublishingTool) -> None:
 
 
 def _tools(session: Session, config: str | None, frame: str | None) -> Tools:
-    """Return RViz's tools in this graph. Its node starts with the first click, and stays."""
+    """Return the tools of RViz's open window, or those of a node that starts with the first click, and stays."""
     from rosmini.viz.rviz import Scene
     from rosmini.viz.rviz.suggestions import suggested
     from rosmini.viz.rviz.tools import Tools
+    from rosmini.viz.rviz.window import RVizWindow
 
     graph = session.graph
+    window = getattr(graph.nodes.get("/rviz"), "panel", None)
+    if isinstance(window, RVizWindow) and config is None and frame is None:
+        return window.tools
     if (config, frame) not in session.rviz:
         chosen = suggested(graph, frame).options()["Fixed Frame"] if config is None else frame
         node = graph.node("rviz", anonymous="/rviz" in graph.nodes)
@@ -245,11 +247,7 @@ def _player(given: Values) -> Any:
     from rosmini.viz.meshcat import replay_3d
     from rosmini.viz.replay import replay as replay_flat
 
-    if not given.solid:
-        return partial(replay_flat, opens_at_end=given.at_end)
-    if given.at_end:
-        raise UsageError("--end is for players without --3d")
-    return replay_3d
+    return replay_3d if given.solid else replay_flat
 
 
 def _replay(recorders: Sequence[Recorder | Tape], given: Values, topics: Sequence[str] | None) -> Replay:
@@ -258,7 +256,7 @@ def _replay(recorders: Sequence[Recorder | Tape], given: Values, topics: Sequenc
 
     robots = [recorder for recorder in recorders if isinstance(recorder, Recorder)]
     if not robots:
-        if given.solid or given.at_end or given.words:
+        if given.solid or given.words:
             raise UsageError("turtles are flat and have no layers: write %replay without arguments")
         tapes = [recorder for recorder in recorders if not isinstance(recorder, Recorder)]
         return Replay(view=turtle_replay(*tapes), recordings=tuple(tapes))

@@ -39,6 +39,8 @@ REDRAW_S = 1.0
 class PanelNode(Node):
     """The node of a panel. A new panel of the same name replaces it without a warning, since cells are run again."""
 
+    panel: Panel | None = None
+
 
 class Panel(Plugin, LiveView):
     """A tool of rqt on a graph. A reader operates its controls in a page, a script by :meth:`set`.
@@ -60,7 +62,10 @@ class Panel(Plugin, LiveView):
         self.problem = ""
         """Error of the last call of :meth:`set`."""
         self._drawn: tuple[float, Drawing] | None = None
-        self._node = node or _own_node(graph, name or self.tool)
+        if node is None:
+            node = _own_node(graph, name or self.tool)
+            node.panel = self
+        self._node = node
 
     @property
     def node(self) -> Node:

@@ -60,20 +60,25 @@ def show(given: Values, call: Call) -> Result:
         _parser().error(f"the window has boxes to select displays: leave out {' '.join(given.words)}, or --live")
     if given.live or (call.in_terminal and not is_still):
         return _live(given, call)
-    duration = DURATION if given.duration is None else max(given.duration, 0.0)
     file = given.display_config
     chosen = suggested(graph, given.fixed_frame) if file is None else Config.read(file)
     if given.words:
         chosen = selected(chosen, given.words)
     with Scene(graph, chosen, fixed_frame=given.fixed_frame) as scene:
-        for _ in Span.of(graph, round(duration * 1e9)).every(100_000_000):
-            pass
+        _listen(given, call)
         if scene.warning:
             call.warn(f"[WARN] {scene.config.source}: {scene.warning}")
         if given.view:
             look_from(scene, given.view)
         make = still if given.still else turnable
         return shown(make(scene, title=given.title, fit=given.fit), "rviz", given, call)
+
+
+def _listen(given: Values, call: Call) -> None:
+    """Let time pass, so that the displays receive messages."""
+    duration = DURATION if given.duration is None else max(given.duration, 0.0)
+    for _ in Span.of(call.graph, round(duration * 1e9)).every(100_000_000):
+        pass
 
 
 def _live(given: Values, call: Call) -> Result:
@@ -84,6 +89,7 @@ def _live(given: Values, call: Call) -> Result:
     if window.scene.warning:
         call.warn(f"[WARN] {window.scene.config.source}: {window.scene.warning}")
     if not call.in_terminal:
+        _listen(given, call)
         return Shown(view=window)
     import webbrowser
 

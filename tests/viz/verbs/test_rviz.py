@@ -1,5 +1,7 @@
 """`rviz`: what RViz shows at this moment."""
 
+import re
+
 import pytest
 
 from rosmini import Graph
@@ -59,8 +61,9 @@ def test_live_it_is_a_window_that_goes_on(graph):
     assert isinstance(result, Shown)
     window = result.view
     assert isinstance(window, RVizWindow)
+    assert re.search(r"\b(19|20) messages received", window.text)
     graph.run(1.0)
-    assert "10 messages received" in window.text or "9 messages received" in window.text
+    assert re.search(r"\b(29|30) messages received", window.text)
     assert "/rviz" in graph.nodes
     window.close()
     assert "/rviz" not in graph.nodes
