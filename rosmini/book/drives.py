@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import yaml
 
@@ -20,9 +20,6 @@ from rosmini.ros.launch.running import in_graph
 
 from .checks import Wrong, expect, expect_type
 from .trials import Trial
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Graph
 
 COURIER = """
 <launch>
@@ -40,47 +37,56 @@ COURIER = """
 Pose = tuple[float, float, float]
 
 
-def launched(text: str, graph: Graph) -> Launch:
-    """Start the text of a launch file in a graph.
+class Launched(Trial):
+    """The text of a launch file, started in a graph of its own.
 
-    Raises:
-        Wrong: roslaunch refuses the text. The graph is shut down then.
-
-    """
-    packages = PackageIndex()
-    try:
-        path = str(Path("answer.launch").resolve())
-        environ = {"TURTLEBOT3_MODEL": "burger", **os.environ}
-        plan = read(text=text, path=path, args={}, packages=packages, environ=environ)
-        launch = Launch(plan, graph, in_graph(graph, packages, capture_output=True))
-        launch.start()
-        graph.run(0.1)
-    except RosminiError as error:
-        graph.shutdown()
-        said = str(error).replace(f"{Path.cwd()}{os.sep}", "")
-        raise Wrong(f"It cannot be started: {said}", "the message names the tag or the parameter") from error
-    return launch
-
-
-class Drive(Trial):
-    """The text of a launch file with the Navigation Stack, started in a graph of its own.
+    Args:
+        text: the text.
+        simulator: the name of the node that simulates the robots.
+        settle: the time until the recording begins [s].
 
     Raises:
         Wrong: roslaunch refuses the text, or it starts no simulator.
 
     """
 
-    def __init__(self, text: str) -> None:
+    def __init__(self, text: str, simulator: str = "/simulator", *, settle: float = 0.1) -> None:
         from rosmini.sim.recorder import Recorder
 
         self._begin(is_shown=True)
-        self.launch = launched(text, self.graph)
-        found = self.graph.nodes.get("/simulator")
-        if found is None or "/move_base" not in self.graph.nodes:
+        packages = PackageIndex()
+        try:
+            path = str(Path("answer.launch").resolve())
+            environ = {"TURTLEBOT3_MODEL": "burger", **os.environ}
+            plan = read(text=text, path=path, args={}, packages=packages, environ=environ)
+            self.launch = Launch(plan, self.graph, in_graph(self.graph, packages, capture_output=True))
+            self.launch.start()
+            self.graph.run(settle)
+        except RosminiError as error:
             self.graph.shutdown()
-            raise Wrong("There is no node /simulator, or no /move_base.", "include navigation.launch")
-        self.robot = found.program
-        self._recorder = Recorder(self.graph, self.robot)
+            said = str(error).replace(f"{Path.cwd()}{os.sep}", "")
+            raise Wrong(f"It cannot be started: {said}", "the message names the tag or the parameter") from error
+        found = self.graph.nodes.get(simulator)
+        if found is None:
+            self.graph.shutdown()
+            raise Wrong(f"There is no node {simulator}.", "the launch file starts the simulator")
+        self.simulation = self.robot = found.program
+        self._recorder = Recorder(self.graph, found.program)
+
+
+class Drive(Launched):
+    """The text of a launch file with the Navigation Stack, started in a graph of its own.
+
+    Raises:
+        Wrong: roslaunch refuses the text, or it starts no simulator or no `move_base`.
+
+    """
+
+    def __init__(self, text: str) -> None:
+        super().__init__(text)
+        if "/move_base" not in self.graph.nodes:
+            self.graph.shutdown()
+            raise Wrong("There is no node /move_base.", "include navigation.launch")
         self.results: list[str] = []
         """Texts of the goals that `move_base` has finished."""
         self._desk = self.graph.node("desk")
