@@ -1,159 +1,216 @@
-"""Checks of the exercises in the chapter A goal by click: a pose, a way home, and goals that take too long."""
+"""Checks of the exercises in the chapter A goal by click: nodes that send goals to a robot in the house."""
 
 from __future__ import annotations
 
 import math
 from typing import Any
 
-from rosmini.book.checks import Script, exercise, expect
-from rosmini.book.trials import TurtleTrial
-from rosmini.msgs.geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
+from rosmini.book.checks import Script, Wrong, exercise, expect
+from rosmini.book.drives import Drive
+from rosmini.msgs.geometry_msgs.msg import PointStamped
+from rosmini.msgs.move_base_msgs.msg import MoveBaseActionGoal, MoveBaseActionResult
 from rosmini.msgs.std_msgs.msg import Empty
+from rosmini.navigation.nav_core import BadGoal
+from rosmini.navigation.nav_core.poses import checked_goal
 
-from .move_base import PlayedMoveBase
+HOUSE = """
+<launch>
+  <include file="$(find rosmini_sim)/launch/navigation.launch">
+    <arg name="localization" value="{localization}"/>
+    <arg name="x" value="{x}"/>
+    <arg name="y" value="{y}"/>
+    <arg name="yaw" value="{yaw}"/>
+  </include>
+</launch>
+"""
+SUCCEEDED, PREEMPTED = 3, 2
 
 Point = tuple[float, float]
-
-# ---- goal_of: be the tool ----
-
-PULLS: tuple[tuple[Point, Point], ...] = (
-    ((1.0, 2.0), (4.0, 2.0)),
-    ((0.0, 0.0), (0.0, 0.5)),
-    ((-1.0, 3.0), (-2.0, 3.0)),
-    ((2.0, 2.0), (1.0, 1.0)),
-    ((5.0, -1.0), (5.3, -1.4)),
-)
+Pose = tuple[float, float, float]
 
 
-@exercise("goal_of", praise="RViz's button computes exactly this.")
-def goal_of(answer: Any) -> None:
-    """The goal from the point where the mouse was pressed and the direction of the drag."""
-    for press, release in PULLS:
-        goal = answer(press, release)
-        pulled = f"From {press} to {release}"
+class Errands(Drive):
+    """A robot in the house, and a list of the goals that move_base receives and of their ends."""
+
+    def __init__(self, start: Pose, localization: str = "fake_localization") -> None:
+        x, y, yaw = start
+        super().__init__(HOUSE.format(localization=localization, x=x, y=y, yaw=yaw))
+        self.goals: list[Any] = []
+        """The poses of the goals."""
+        self.begun: list[float] = []
+        """The times of the goals [s]."""
+        self.ends: list[tuple[int, float]] = []
+        """The state in which each goal ended, and when [s]."""
+        self._desk.subscriber("/move_base/goal", MoveBaseActionGoal, self._on_goal)
+        self._desk.subscriber("/move_base/result", MoveBaseActionResult, self._on_result)
+        self.run(0.1)
+
+    def _on_goal(self, message: Any) -> None:
+        self.goals.append(message.goal.target_pose)
+        self.begun.append(self.graph.now().to_sec())
+
+    def _on_result(self, message: Any) -> None:
+        self.ends.append((message.status.status, self.graph.now().to_sec()))
+
+    @property
+    def places(self) -> list[Point]:
+        """The positions of the goals [m]."""
+        return [(round(each.pose.position.x, 2), round(each.pose.position.y, 2)) for each in self.goals]
+
+    def expect_valid_goals(self) -> None:
+        """Expect that the goals so far are in the frame map, and have an orientation."""
+        for goal in self.goals:
+            frame = goal.header.frame_id
+            expect(frame == "map", f"A goal is in the frame {frame!r}, not 'map'.", "set header.frame_id of the goal")
+            try:
+                checked_goal(goal)
+            except BadGoal as error:
+                raise Wrong(f"move_base refuses a goal: {error}.", "set orientation.z and w") from error
+
+    def expect_pose(self, goal: Pose, seconds: float, what: str, hint: str) -> None:
+        """Expect that the goal that was just sent is this one, and that the robot reaches it in time."""
+        self.expect_valid_goals()
+        before = len(self.ends)
+        for _ in range(round(2 * seconds)):
+            if len(self.ends) > before:
+                break
+            self.run(0.5)
+        self.expect_no_errors()
+        x, y, yaw = self.robot.truth()
+        off, turned = math.dist((x, y), goal[:2]), math.remainder(yaw - goal[2], math.tau)
         expect(
-            getattr(goal, "_type", None) == "geometry_msgs/PoseStamped",
-            f"{pulled} it returned {type(goal).__name__}.",
-            "return a PoseStamped",
+            off < 0.3,
+            f"{what} the robot should be at {_named(goal)}, and is at {_named((x, y))} after at most {seconds:g} s.",
+            hint,
         )
-        frame, at = goal.header.frame_id, goal.pose.position
-        expect(frame == "map", f"{pulled} the goal is in the frame {frame!r}, not 'map'.", "set goal.header.frame_id")
         expect(
-            math.dist((at.x, at.y), press) < 1e-6,
-            f"{pulled} the goal is at ({at.x:g}, {at.y:g}).",
-            "the position of the goal is where the mouse was pressed",
+            abs(turned) < 0.4,
+            f"{what} the robot arrived, but its heading is off by {math.degrees(turned):.0f} degrees.",
+            "use math.atan2(dy, dx); z and w of a quaternion are the sine and the cosine of half the angle",
         )
-        _expect_heading(goal, math.atan2(release[1] - press[1], release[0] - press[0]), pulled)
 
 
-def _expect_heading(goal: Any, yaw: float, what: str) -> None:
-    """Expect a quaternion of length 1 that turns by `yaw` about z."""
-    q = goal.pose.orientation
-    length = math.sqrt(q.x**2 + q.y**2 + q.z**2 + q.w**2)
-    expect(
-        abs(length - 1) < 1e-3,
-        f"{what} the quaternion has the length {length:.2f}, which move_base refuses.",
-        "set z = sin(yaw / 2) and w = cos(yaw / 2)",
-    )
-    off = math.remainder(2 * math.atan2(q.z, q.w) - yaw, math.tau)
-    expect(
-        abs(off) < 1e-3 and abs(q.x) < 1e-6 and abs(q.y) < 1e-6,
-        f"{what} the heading should be {math.degrees(yaw):.0f} degrees; yours is off by "
-        f"{math.degrees(off):.0f} degrees.",
-        "use math.atan2(dy, dx) of the drag; a quaternion contains half of the angle",
-    )
+def _named(point: Any) -> str:
+    return f"({point[0]:.1f}, {point[1]:.1f})"
+
+
+# ---- one_click: a goal without a drag ----
+
+CLICKS = ((-1.0, 0.9), (-1.05, -0.8))
+
+
+@exercise("one_click", praise="One click is enough, and the robot looks where it was going.")
+def one_click(answer: Script) -> Any:
+    """The robot drives to each point that is clicked, and looks in the direction from which it set out."""
+    with Errands((-2.5, 0.6, 0.0)) as errands:
+        points = errands.graph.node("clicker").publisher("/clicked_point", PointStamped, queue_size=1)
+        errands.start(answer)
+        errands.run(2.0)
+        for number, (x, y) in enumerate(CLICKS, start=1):
+            from_x, from_y, _ = errands.robot.truth()
+            clicked = PointStamped()
+            clicked.header.frame_id = "map"
+            clicked.point.x, clicked.point.y = x, y
+            points.publish(clicked)
+            errands.run(1.0)
+            errands.expect_no_errors()
+            what = f"After a click at ({x}, {y})"
+            expect(
+                len(errands.goals) == number,
+                f"{what} move_base received {len(errands.goals) - number + 1} goals; one is expected.",
+                "publish one goal for each point",
+            )
+            heading = math.atan2(y - from_y, x - from_x)
+            errands.expect_pose((x, y, heading), 25.0, what, "copy the clicked point to goal.pose.position")
+        return errands.view()
 
 
 # ---- home: take me back ----
 
-BEGIN, LATER = (-1.0, 2.0, 0.6), (3.0, 0.5, -2.0)
-
-
-def _pose(frame: str, pose: tuple[float, float, float]) -> Any:
-    message = PoseWithCovarianceStamped()
-    message.header.frame_id = frame
-    message.pose.pose.position.x, message.pose.pose.position.y = pose[:2]
-    message.pose.pose.orientation.z = math.sin(pose[2] / 2)
-    message.pose.pose.orientation.w = math.cos(pose[2] / 2)
-    return message
+BEGIN, AWAY = (-2.0, 0.6, 0.8), (-1.0, 0.6, 0.0)
 
 
 @exercise("home", praise="One message brings the robot home from anywhere.")
-def home(answer: Script) -> None:
-    """The first pose becomes the goal on each request, and only then; its frame may have any name."""
-    for frame in ("map", "floor_2"):
-        with TurtleTrial(None) as trial:
-            desk = trial.graph.node("desk")
-            heard: list[Any] = []
-            desk.subscriber("move_base_simple/goal", PoseStamped, heard.append)
-            poses = desk.publisher("amcl_pose", PoseWithCovarianceStamped, queue_size=5)
-            # a script that waits for one pose unsubscribes; keep a subscriber, or the publisher warns
-            desk.subscriber("amcl_pose", PoseWithCovarianceStamped, lambda _: None)
-            ask = desk.publisher("home", Empty, queue_size=5)
-            trial.start(answer)
-            for pose in (BEGIN, LATER):
-                trial.run(1.0)
-                poses.publish(_pose(frame, pose))
-            trial.run(1.0)
-            expect(not heard, "It sent a goal before there was a message on home.", "publish in on_home")
-            for asked in (1, 2):
-                ask.publish(Empty())
-                trial.run(1.0)
-                expect(
-                    len(heard) == asked,
-                    f"There were {asked} messages on home, but {len(heard)} goals.",
-                    "publish one message on move_base_simple/goal for each message on home",
-                )
-            goal = heard[-1]
-            at, named = goal.pose.position, goal.header.frame_id
-            expect(
-                named == frame,
-                f"amcl_pose was in the frame {frame!r}, but the goal is in {named!r}.",
-                "copy begin.header.frame_id",
-            )
-            expect(
-                math.dist((at.x, at.y), BEGIN[:2]) < 1e-6,
-                f"The robot was first at {BEGIN[:2]}, but the goal is at ({at.x:g}, {at.y:g}).",
-                "use the first pose, not the last",
-            )
-            _expect_heading(goal, BEGIN[2], "At home")
+def home(answer: Script) -> Any:
+    """The first pose becomes the goal on each request, and only then."""
+    with Errands(BEGIN, "amcl") as errands:
+        ask = errands.graph.node("phone").publisher("home", Empty, queue_size=5)
+        errands.start(answer)
+        errands.run(1.0)
+        expect(not errands.goals, "It sent a goal before there was a message on home.", "publish in on_home")
+        errands.go(AWAY, 20.0)
+        ask.publish(Empty())
+        errands.run(1.0)
+        errands.expect_no_errors()
+        expect(
+            len(errands.goals) == 2,
+            "There was a message on home, but move_base received no goal.",
+            "fill in the goal, then publish it",
+        )
+        errands.expect_pose(BEGIN, 20.0, "After a message on home", "use the first pose, not the last")
+        return errands.view()
 
 
 # ---- waiter: no time to lose ----
 
-TABLES = [(1.0, 0.0), (2.0, 1.0), (0.0, 2.0)]
-PATIENCE = 5.0
+TABLES = ((-2.0, 0.7), (-1.05, -0.8), (-2.3, 1.2))
+PATIENCE = 25.0
+BLOCKED = TABLES[1]
+CRATES = {"crate 1": (-1.27, -0.05, 0.0), "crate 2": (-0.82, -0.05, 0.0), "toy box": (-1.03, -0.45, 0.0)}
+"""Things that block the door to this table."""
 
 
-@exercise("waiter", praise="Two of three tables are served, and the kitchen knows which one is not.")
-def waiter(answer: Script) -> None:
-    """Three goals in order; the slow one, a different one each time, is cancelled after five seconds."""
-    for slow in (TABLES[1], TABLES[0]):
-        with TurtleTrial(None) as trial:
-            played = PlayedMoveBase(trial.graph, lasting={slow})
-            handle = trial.start(answer)
-            trial.run(25.0)
-            expect(bool(played.begun), "move_base received no goal.", "call client.send_goal(goal)")
+@exercise("waiter", praise="Two of three tables are served, and no guest waits for the third.")
+def waiter(answer: Script) -> Any:
+    """Three goals in order; the one that cannot be reached is cancelled after 25 s."""
+    with Errands((-3.0, 1.0, 0.0)) as errands:
+        for name, pose in CRATES.items():
+            errands.robot.drag(name, pose)
+        errands.run(1.0)
+        handle = errands.start(answer)
+        while handle.poll() is None and errands.graph.now().to_sec() < 1080.0:
+            errands.run(1.0)
+            _expect_goals(errands)
+        errands.expect_no_errors()
+        expect(bool(errands.goals), "move_base received no goal.", "call client.send_goal(goal)")
+        expect(handle.poll() is not None, "The script still runs after 75 s.", "end without spin()")
+        expect(
+            errands.places == list(TABLES),
+            f"The goals were {errands.places}.",
+            "send one goal for each x, y of the list, also after one that was cancelled",
+        )
+        errands.run(1.0)
+        _expect_goals(errands)
+        reached = [table for table, (end, _) in zip(TABLES, errands.ends, strict=False) if end == SUCCEEDED]
+        expect(
+            reached == [TABLES[0], TABLES[2]],
+            f"The robot served only {reached}.",
+            "wait for the result of each goal, also the last",
+        )
+        return errands.view()
+
+
+def _expect_goals(errands: Errands) -> None:
+    """Expect that what has happened so far is right."""
+    errands.expect_valid_goals()
+    for number, (state, end) in enumerate(errands.ends):
+        place, took = errands.places[number], end - errands.begun[number]
+        if place == BLOCKED:
             expect(
-                not played.faults,
-                f"A goal is wrong: {''.join(played.faults[:1])}.",
-                "set header.frame_id, and orientation.w to 1",
+                state == PREEMPTED and abs(took - PATIENCE) < 1.0,
+                f"The blocked goal {place} ended after {took:.0f} s; it should be cancelled after {PATIENCE:g} s.",
+                "wait_for_result(rospy.Duration(25)) returns False at the timeout; then call cancel_goal()",
             )
+        else:
             expect(
-                played.begun == TABLES,
-                f"Within 25 s the goals were {played.begun}, with the path to {slow} blocked.",
-                "wait_for_result(rospy.Duration(5)) returns False at the timeout",
+                state == SUCCEEDED,
+                f"The goal {place} was cancelled after {took:.0f} s, although the robot was on its way.",
+                "wait for the result of each goal before you send the next one",
             )
-            hurried = [place for place in played.cut if place != slow]
-            expect(
-                not hurried,
-                f"The goal {str(hurried)[1:-1]} was cancelled, although it needs only three seconds.",
-                "wait for the result of each goal",
-            )
-            took = played.took[slow]
-            expect(
-                abs(took - PATIENCE) < 0.5,
-                f"The goal {slow} was cancelled after {took:.1f} s, not after {PATIENCE:g}.",
-                "use a timeout of rospy.Duration(5)",
-            )
-            expect(handle.poll() is not None, "The script still runs after the third goal.", "end without spin()")
+    if errands.begun and len(errands.ends) < len(errands.begun):
+        waited = errands.graph.now().to_sec() - errands.begun[-1]
+        expect(
+            waited < PATIENCE + 3.0,
+            f"The goal {errands.places[-1]} is still active after {waited:.0f} s.",
+            "wait_for_result(rospy.Duration(25)) returns False at the timeout; then call cancel_goal()",
+        )

@@ -2,14 +2,40 @@
 
 from __future__ import annotations
 
-import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from rosmini.book.checks import Script
-from rosmini.msgs.geometry_msgs.msg import PoseStamped
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+ONE_CLICK = """
+import math
+
+import rospy
+import tf2_ros
+from geometry_msgs.msg import PointStamped, PoseStamped
+
+
+def on_point(clicked):
+    here = buffer.lookup_transform("map", "base_footprint", rospy.Time(0))
+    here = here.transform.translation
+    goal = PoseStamped()
+    goal.header.frame_id = clicked.header.frame_id
+    goal.pose.position = clicked.point
+    yaw = math.atan2(clicked.point.y - here.y, clicked.point.x - here.x)
+    goal.pose.orientation.z = math.sin(yaw / 2)
+    goal.pose.orientation.w = math.cos(yaw / 2)
+    goals.publish(goal)
+
+
+rospy.init_node("one_click")
+goals = rospy.Publisher("move_base_simple/goal", PoseStamped, queue_size=1)
+buffer = tf2_ros.Buffer()
+listener = tf2_ros.TransformListener(buffer)
+rospy.Subscriber("clicked_point", PointStamped, on_point)
+rospy.spin()
+"""
 
 HOME = """
 import rospy
@@ -39,14 +65,14 @@ from move_base_msgs.msg import MoveBaseAction, MoveBaseGoal
 rospy.init_node("waiter")
 client = actionlib.SimpleActionClient("move_base", MoveBaseAction)
 client.wait_for_server()
-for x, y in [(1, 0), (2, 1), (0, 2)]:
+for x, y in [(-2.0, 0.7), (-1.05, -0.8), (-2.3, 1.2)]:
     goal = MoveBaseGoal()
     goal.target_pose.header.frame_id = "map"
     goal.target_pose.pose.position.x = x
     goal.target_pose.pose.position.y = y
     goal.target_pose.pose.orientation.w = 1
     client.send_goal(goal)
-    if not client.wait_for_result(rospy.Duration(5)):
+    if not client.wait_for_result(rospy.Duration(25)):
         client.cancel_goal()
         client.wait_for_result()
 """
@@ -57,36 +83,18 @@ def _but(right: str, old: str, new: str) -> Callable[[], Script]:
     return lambda: Script("answer.py", right.replace(old, new))
 
 
-def goal_of(press: Any, release: Any, half: float = 2.0, frame: str = "map", at: str = "press") -> PoseStamped:
-    goal = PoseStamped()
-    goal.header.frame_id = frame
-    goal.pose.position.x, goal.pose.position.y = press if at == "press" else release
-    yaw = math.atan2(release[1] - press[1], release[0] - press[0])
-    goal.pose.orientation.z, goal.pose.orientation.w = math.sin(yaw / half), math.cos(yaw / half)
-    return goal
-
-
-def unturned(press: Any, _: Any) -> PoseStamped:
-    goal = goal_of(press, (press[0] + 1, press[1]))
-    goal.pose.orientation.w = 0.0
-    return goal
-
-
 MISTAKES: dict[str, list[Callable[[], object]]] = {
-    "goal_of": [
-        lambda: lambda press, release: goal_of(press, release, half=1.0),
-        lambda: lambda press, release: goal_of(press, release, frame="odom"),
-        lambda: lambda press, release: goal_of(press, release, at="release"),
-        lambda: lambda press, release: goal_of(press, release).pose,
-        lambda: unturned,
-        lambda: lambda press, _: goal_of(press, (press[0] + 1, press[1])),
+    "one_click": [
+        _but(ONE_CLICK, "clicked.header.frame_id", '"odom"'),
+        _but(ONE_CLICK, "yaw / 2", "yaw"),
+        _but(ONE_CLICK, "    goal.pose.orientation.w = math.cos(yaw / 2)\n", ""),
+        _but(ONE_CLICK, "    goals.publish(goal)\n", ""),
+        _but(ONE_CLICK, "clicked.point.y - here.y, clicked.point.x - here.x", "clicked.point.y, clicked.point.x"),
     ],
     "home": [
-        _but(HOME, "begin.header.frame_id", '"map"'),
         _but(HOME, "    goal.pose = begin.pose.pose\n", "    goal.pose.position = begin.pose.pose.position\n"),
         _but(HOME, "    goals.publish(goal)\n", ""),
-        _but(HOME, "rospy.spin()", "on_home(None)\nrospy.spin()"),
-        _but(HOME, "    goal = PoseStamped()\n", "    goal = PoseStamped()\n    rospy.signal_shutdown('home')\n"),
+        _but(HOME, "rospy.spin()", "rospy.sleep(0.5)\non_home(None)\nrospy.spin()"),
         _but(
             HOME,
             'begin = rospy.wait_for_message("amcl_pose", PoseWithCovarianceStamped)\n',
@@ -95,12 +103,10 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
         ),
     ],
     "waiter": [
-        _but(WAITER, "rospy.Duration(5)", ""),
-        _but(WAITER, "rospy.Duration(5)", "rospy.Duration(2)"),
-        _but(WAITER, "rospy.Duration(5)", "rospy.Duration(8)"),
+        _but(WAITER, "rospy.Duration(25)", ""),
+        _but(WAITER, "rospy.Duration(25)", "rospy.Duration(3)"),
         _but(WAITER, "        client.cancel_goal()\n        client.wait_for_result()\n", "        break\n"),
         _but(WAITER, "    goal.target_pose.pose.orientation.w = 1\n", ""),
-        _but(WAITER, "        client.wait_for_result()\n", "        client.wait_for_result()\nrospy.spin()\n"),
-        _but(WAITER, "(1, 0), (2, 1)", "(2, 1), (1, 0)"),
+        _but(WAITER, "    if not client", "    if x < -2.2:\n        break\n    if not client"),
     ],
 }
