@@ -77,7 +77,6 @@ TO_REWRITE: dict[str, set[str]] = {
     "navigation_stack": {"private API"},
     "maps": {"private API"},
     "global_planners": {"private API"},
-    "local_planners": {"lines", "private API"},
     "amcl": {"mentions", "private API"},
     "gmapping": {"lines", "mentions"},
     "hector_mapping": {"lines", "mentions", "private API"},

@@ -3,64 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import fields
-from numbers import Real
 from typing import Any
 
 import numpy as np
+import yaml
 
-from rosmini.book.checks import Wrong, exercise, expect, expect_number, expect_type
-from rosmini.book.trials import TurtleTrial
-from rosmini.core.dynamic_reconfigure import Client
-from rosmini.core.errors import RosminiError
-from rosmini.msgs.geometry_msgs.msg import PoseStamped
-from rosmini.navigation.dwa_local_planner.dwa_planner import DWAPlannerParameters
-from rosmini.ros.launch import roslaunch
+from rosmini.book.checks import Script, exercise, expect, expect_number
+from rosmini.book.drives import Drive, settings_of
+from rosmini.book.trials import Trial
 
-# ---- window: the window ----
-
-NAMES = ("low v", "high v", "low w", "high w")
-WINDOWS = (
-    (
-        (0.15, 0.0),
-        (-1.0, 1.0, 2.0),
-        (1.0, 3.0),
-        0.1,
-        "the window is acceleration times period on either side of the velocity",
-    ),
-    ((0.05, 0.0), (0.0, 1.0, 2.0), (1.0, 3.0), 0.1, "the low v is never below the minimum v"),
-    ((0.02, 0.0), (-0.2, 0.22, 2.0), (1.0, 3.0), 0.1, "the low v may be negative: this robot can reverse"),
-    ((0.20, 0.0), (0.0, 0.22, 2.0), (1.0, 3.0), 0.1, "the high v is never above the maximum v"),
-    ((0.15, 1.9), (0.0, 0.22, 2.0), (0.5, 3.0), 0.1, "the high w is never above the maximum w"),
-    ((0.15, -1.9), (0.0, 0.22, 2.0), (0.5, 3.0), 0.1, "the low w is never below minus the maximum w"),
-    ((0.1, 0.5), (-0.2, 0.22, 2.0), (0.5, 3.0), 0.05, "use the argument: the period is not always 0.1 s"),
-)
-
-
-@exercise("window", praise="With 1.7 s instead of the period, this is the window of Trajectory Rollout.")
-def window(answer: Any) -> None:
-    """The velocities that the robot can reach in one period."""
-    for velocity, limits, accelerations, period, hint in WINDOWS:
-        found = answer(velocity, limits, accelerations, period)
-        expect(
-            isinstance(found, tuple | list | np.ndarray) and len(found) == 4,
-            f"It returned {found!r}.",
-            "return four numbers: low v, high v, low w, high w",
-        )
-        (v, w), (least, most, turn) = velocity, limits
-        gain_v, gain_w = accelerations[0] * period, accelerations[1] * period
-        wanted = (max(v - gain_v, least), min(v + gain_v, most), max(w - gain_w, -turn), min(w + gain_w, turn))
-        for name, value, right in zip(NAMES, found, wanted, strict=True):
-            number = expect_number(value, "number")
-            expect(
-                math.isclose(number, right, abs_tol=1e-9),
-                f"At {velocity} with the limits {limits}, accelerations {accelerations} and a period of {period} s, "
-                f"{name} is {right:.3g}, not {number:.3g}.",
-                hint,
-            )
-
-
-# ---- manners: manners ----
+# ---- manners: a critic that keeps away from a person ----
 
 WALK = np.column_stack([np.linspace(0, 1, 11), np.zeros(11), np.zeros(11)])
 PEOPLE = (
@@ -85,88 +37,65 @@ def manners(answer: Any) -> None:
         )
 
 
-# ---- refused_by: which critic ----
+# ---- wander: a local planner without a plan ----
 
-RAW = np.array(
-    [[0.0, 12.0, 3.0], [0.0, -1.0, 4.0], [-5.0, -1.0, 2.0], [0.0, 1.0, -3.0], [-5.0, 2.0, -3.0], [0.0, 0.0, 0.0]]
-)
+STARTS = (((2.9, 0.5, 1.57), 2.0), ((-0.4, 0.0, 3.14), 0.5))
+"""Poses in the room, and the distance [m] that the robot drives from each, at least. At the second one it faces a
+wall, and has to turn first."""
+SECONDS = 20.0
 
 
-@exercise("refused_by", praise="Counted per critic, this is the planner's report when no trajectory is left.")
-def refused_by(answer: Any) -> None:
-    """The first critic with a weight that returned a negative number."""
-    for weights in ([1.0, 0.02, 0.8], [0.0, 0.02, 0.8], [1.0, 0.0, 0.0]):
-        found = answer(RAW.copy(), list(weights))
-        expect_type(found, list, "It returned", "a list")
-        expect(len(found) == len(RAW), f"For {len(RAW)} trajectories it returned {len(found)} entries.")
-        for row, given in zip(RAW.tolist(), found, strict=True):
-            asked = [n for n, (value, weight) in enumerate(zip(row, weights, strict=True)) if weight and value < 0]
-            wanted = asked[0] if asked else None
+@exercise("wander", praise="It samples, simulates, rejects and chooses, five times a second.")
+def wander(answer: Script) -> Any:
+    """The robot wanders through the room, and touches nothing."""
+    for (x, y, yaw), least in STARTS:
+        with Trial("room", f"_x:={x}", f"_y:={y}", f"_yaw:={yaw}") as trial:
+            trial.start(answer)
+            driven, before = 0.0, (x, y)
+            for step in range(round(2 * SECONDS)):
+                trial.run(0.5)
+                touched = trial.robot.engine.contacts.touches(trial.robot.name)
+                expect(
+                    not touched,
+                    f"From ({x:g}, {y:g}) the robot touched something after {(step + 1) / 2:g} s.",
+                    "reject w if any of its points is nearer than 0.2 m to any obstacle",
+                )
+                here = trial.robot.truth()[:2]
+                driven += math.dist(here, before)
+                before = here
             expect(
-                (given is None) == (wanted is None) and given == wanted,
-                f"With the weights {weights} the trajectory {row} is refused by {wanted}, not by {given}.",
-                "take the first negative score among critics whose weight is not 0; index 0 is not the same as None",
+                driven > least,
+                f"From ({x:g}, {y:g}) the robot drove only {driven:.1f} m in {SECONDS:g} s.",
+                "drive at 0.15 m/s if a turning speed is left; if none is, turn on the spot until one is",
             )
+            view = trial.view()
+    return view
 
 
-# ---- changes: the dance ----
+# ---- past_the_crate: two wrong numbers ----
 
-DANCE = {"min_vel_theta": 1.37, "yaw_goal_tolerance": 0.05}
-GOALS = ((0.5, 0.0, 1.5), (0.5, 0.0, -1.0))
+LAUNCH = """
+<launch>
+  <include file="$(find rosmini_sim)/launch/navigation.launch">
+    <arg name="world" value="room"/>
+    <arg name="x" value="0.1"/>
+    <arg name="y" value="1.4"/>
+  </include>
+  <rosparam ns="move_base">
+{settings}
+  </rosparam>
+</launch>
+"""
 
 
-@exercise("changes", praise="The robot stops, turns and stays still.")
-def changes(answer: Any) -> None:
-    """Parameters with which a robot reaches its goal although its slowest turn is too fast for the tolerance."""
-    expect_type(answer, dict, "The changes are", "a dictionary")
-    known = {each.name for each in fields(DWAPlannerParameters)}
-    for name, value in answer.items():
-        expect(
-            name in known,
-            f"DWAPlannerROS has no parameter {name!r}.",
-            "the exercise lists the names, such as min_vel_theta",
+@exercise("past_the_crate", praise="It looks far enough ahead, and passes the crate.")
+def past_the_crate(answer: Any) -> Any:
+    """Settings of the local planner with which the robot passes the crate."""
+    settings = settings_of(answer, "settings")
+    with Drive(LAUNCH.format(settings=yaml.safe_dump(settings))) as drive:
+        drive.expect_arrival(
+            (2.05, 1.2, 0.0),
+            20.0,
+            "one number makes the robot afraid of the crate, the other makes it turn on the spot",
         )
-        expect(isinstance(value, Real), f"{name} is {value!r}, which is not a number.")
-    width = answer.get("yaw_goal_tolerance", 0.05)
-    expect(
-        0 < width <= 0.05,
-        f"With a yaw_goal_tolerance of {width:g} the robot may stop with a wrong heading.",
-        "keep the tolerance; what else decides how far the robot turns between two commands?",
-    )
-    with TurtleTrial(None) as trial:
-        roslaunch(
-            "rosmini_sim", "navigation.launch", "world:=room", graph=trial.graph, console={"capture_output": True}
-        )
-        _arrives(trial, {**DANCE, **answer})
-
-
-def _arrives(trial: TurtleTrial, parameters: dict[str, float]) -> None:
-    graph = trial.graph
-    trial.run(1.0)
-    move_base = graph.nodes["/move_base"].program
-    room = graph.nodes["/simulator"].program
-    tuner = graph.node("tuner")
-    try:
-        Client(tuner, "/move_base/DWAPlannerROS", timeout=5.0).update_configuration(parameters)
-    except RosminiError as error:
-        raise Wrong(f"The planner refuses these parameters: {error}") from error
-    goals = tuner.publisher("move_base_simple/goal", PoseStamped, queue_size=1)
-    trial.run(0.5)
-    for x, y, yaw in GOALS:
-        goal = PoseStamped()
-        goal.header.frame_id = "map"
-        goal.pose.position.x, goal.pose.position.y = x, y
-        goal.pose.orientation.z, goal.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
-        goals.publish(goal)
-        trial.run(0.5)
-        for _ in range(20):
-            trial.run(0.5)
-            if move_base.goal is None:
-                break
-        off = abs(math.remainder(room.truth()[2] - yaw, math.tau))
-        expect(
-            move_base.goal is None,
-            f"After 10 s it had not arrived at ({x}, {y}); its heading was {math.degrees(off):.0f} degrees off.",
-            "compare the smallest turn between two commands with the width of the target",
-        )
-        expect(off < 0.1, f"The robot stopped with its heading {math.degrees(off):.0f} degrees off.")
+        return drive.view()

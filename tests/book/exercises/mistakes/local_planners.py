@@ -2,31 +2,64 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
+
+from rosmini.book.checks import Script
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+WANDER = """
+import math
 
-def window(velocity, limits, accelerations, period):
-    (v, w), (least, most, turn) = velocity, limits
-    gain_v, gain_w = accelerations[0] * period, accelerations[1] * period
-    return max(v - gain_v, least), min(v + gain_v, most), max(w - gain_w, -turn), min(w + gain_w, turn)
-
-
-def _unlimited(velocity, limits, accelerations, period):
-    (v, w), gains = velocity, [a * period for a in accelerations]
-    return v - gains[0], v + gains[0], w - gains[1], w + gains[1]
+import numpy as np
+import rospy
+from geometry_msgs.msg import Twist
+from sensor_msgs.msg import LaserScan
 
 
-def _with(**changed: Any) -> Callable[..., Any]:
-    def answer(velocity, limits, accelerations, period):
-        given = {"velocity": velocity, "limits": limits, "accelerations": accelerations, "period": period}
-        return window(**{**given, **{name: change(given[name]) for name, change in changed.items()}})
+def simulate(v, w):
+    x = y = yaw = 0.0
+    points = []
+    for _ in range(24):
+        x += 0.1 * v * math.cos(yaw)
+        y += 0.1 * v * math.sin(yaw)
+        yaw += 0.1 * w
+        points.append((x, y))
+    return np.array(points)
 
-    return answer
+
+def on_scan(scan):
+    ranges = np.array(scan.ranges)
+    angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges))
+    hits = np.array([ranges * np.cos(angles), ranges * np.sin(angles)]).T
+    hits = hits[np.isfinite(ranges)]
+    command = Twist()
+    possible = []
+    for w in np.linspace(-1.5, 1.5, 13):
+        points = simulate(0.15, w)
+        if np.linalg.norm(points[:, None] - hits, axis=2).min() >= 0.2:
+            possible.append(w)
+    if possible:
+        command.linear.x = 0.15
+        command.angular.z = min(possible, key=abs)
+    else:
+        command.angular.z = 0.8
+    cmd_vel.publish(command)
+
+
+rospy.init_node("wander")
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+rospy.Subscriber("scan", LaserScan, on_scan, queue_size=1)
+rospy.spin()
+"""
+
+
+def _but(old: str, new: str) -> Callable[[], Script]:
+    assert old in WANDER, old
+    return lambda: Script("wander.py", WANDER.replace(old, new))
 
 
 def _manners(nearest, cost):
@@ -38,24 +71,7 @@ def _manners(nearest, cost):
     return manners
 
 
-def _refused(raw, weights, skip=True, last=False):
-    found = []
-    for row in raw:
-        critics = [n for n, given in enumerate(row) if given < 0 and (weights[n] or not skip)]
-        found.append(critics[-1 if last else 0] if critics else None)
-    return found
-
-
 MISTAKES: dict[str, list[Callable[[], object]]] = {
-    "window": [
-        lambda: _unlimited,
-        lambda: _with(period=lambda _: 0.1),
-        lambda: _with(limits=lambda given: (0.0, *given[1:])),
-        lambda: _with(limits=lambda given: (*given[:2], 9.0)),
-        lambda: _with(accelerations=lambda given: given[::-1]),
-        lambda: lambda *given: window(*given)[:2],
-        lambda: lambda *_: 0.1,
-    ],
     "manners": [
         lambda: _manners(lambda d: d[-1], lambda d: max(0.0, (1 - d) / 0.6)),
         lambda: _manners(lambda d: d[0], lambda d: max(0.0, (1 - d) / 0.6)),
@@ -65,19 +81,17 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
         lambda: _manners(np.min, lambda d: 0.0),
         lambda: lambda *_: [0.0],
     ],
-    "refused_by": [
-        lambda: lambda raw, weights: _refused(raw, weights, skip=False),
-        lambda: lambda raw, weights: _refused(raw, weights, last=True),
-        lambda: lambda raw, weights: [found or None for found in _refused(raw, weights)],
-        lambda: lambda raw, weights: [found for found in _refused(raw, weights) if found is not None],
-        lambda: lambda raw, weights: np.array([-1 if n is None else n for n in _refused(raw, weights)]),
+    "wander": [
+        _but("        command.angular.z = 0.8\n", "        pass\n"),
+        _but(".min() >= 0.2", ".min() >= 0.0"),
+        _but("command.linear.x = 0.15", "pass"),
+        _but("key=abs)", "key=abs) + 0.1 * missing"),
     ],
-    "changes": [
-        lambda: {"min_vel_theta": 1.2},
-        lambda: {"yaw_goal_tolerance": 0.3},
-        lambda: {"min_vel_thet": 0.3},
-        lambda: {"min_vel_theta": "slow"},
-        lambda: {"xy_goal_tolerance": 0.2},
-        lambda: 0.3,
+    "past_the_crate": [
+        lambda: "DWAPlannerROS: {sim_time: 0.3}",
+        lambda: "DWAPlannerROS: {occdist_scale: 1.0}",
+        lambda: "DWAPlannerROS: {sim_time: 4.0}",
+        lambda: "DWAPlannerROS: [",
+        lambda: 1.7,
     ],
 }
