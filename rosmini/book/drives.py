@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import yaml
 
@@ -21,6 +21,9 @@ from rosmini.ros.launch.running import in_graph
 from .checks import Wrong, expect, expect_type
 from .trials import Trial
 
+if TYPE_CHECKING:
+    from rosmini.core.graph import Graph
+
 COURIER = """
 <launch>
   <include file="$(find rosmini_sim)/launch/navigation.launch">
@@ -35,6 +38,28 @@ COURIER = """
 """
 
 Pose = tuple[float, float, float]
+
+
+def launched(text: str, graph: Graph, settle: float = 0.1) -> Launch:
+    """Start the text of a launch file in a graph, and let `settle` seconds pass.
+
+    Raises:
+        Wrong: roslaunch refuses the text. The graph is shut down then.
+
+    """
+    packages = PackageIndex()
+    try:
+        path = str(Path("answer.launch").resolve())
+        environ = {"TURTLEBOT3_MODEL": "burger", **os.environ}
+        plan = read(text=text, path=path, args={}, packages=packages, environ=environ)
+        launch = Launch(plan, graph, in_graph(graph, packages, capture_output=True))
+        launch.start()
+        graph.run(settle)
+    except RosminiError as error:
+        graph.shutdown()
+        said = str(error).replace(f"{Path.cwd()}{os.sep}", "")
+        raise Wrong(f"It cannot be started: {said}", "the message names the tag or the parameter") from error
+    return launch
 
 
 class Launched(Trial):
@@ -54,18 +79,7 @@ class Launched(Trial):
         from rosmini.sim.recorder import Recorder
 
         self._begin(is_shown=True)
-        packages = PackageIndex()
-        try:
-            path = str(Path("answer.launch").resolve())
-            environ = {"TURTLEBOT3_MODEL": "burger", **os.environ}
-            plan = read(text=text, path=path, args={}, packages=packages, environ=environ)
-            self.launch = Launch(plan, self.graph, in_graph(self.graph, packages, capture_output=True))
-            self.launch.start()
-            self.graph.run(settle)
-        except RosminiError as error:
-            self.graph.shutdown()
-            said = str(error).replace(f"{Path.cwd()}{os.sep}", "")
-            raise Wrong(f"It cannot be started: {said}", "the message names the tag or the parameter") from error
+        self.launch = launched(text, self.graph, settle)
         found = self.graph.nodes.get(simulator)
         if found is None:
             self.graph.shutdown()

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from rosmini.core.errors import ROSException, RosminiError, UsageError, nearest
@@ -106,13 +107,14 @@ def replay(session: Session, line: str) -> Replay:
     """Stop the recording and show it in a player; topics are drawn as layers over the world.
 
     ``%replay /map /plan`` also shows a map and a plan, ``%replay "*"`` every topic that can be drawn; ``--3d`` shows
-    robots in three dimensions; ``%replay drive.bag`` plays a bag or an MCAP file.
+    robots in three dimensions; ``--end`` shows the end first; ``%replay drive.bag`` plays a bag or an MCAP file.
     """
     parser = Parser(
-        "%replay", "%replay [--3d] [-f FRAME] [TOPIC ...] | [FILE.bag ...]", "Play the recording, or bags.",
+        "%replay", "%replay [--3d | --end] [-f FRAME] [TOPIC ...] | [FILE.bag ...]", "Play the recording, or bags.",
         example="  %replay /map",
     )  # fmt: skip
     parser.flag("--3d", dest="solid", help="in three dimensions")
+    parser.flag("--end", dest="at_end", help="show the end first, instead of the start")
     parser.add_option("-f", "--frame", metavar="FRAME", help="the frame of the layers (default: map, odom or world)")
     parser.add_option("--robot", metavar="MODEL", help="the model of a bag's robot, such as burger")
     given = _parsed(session, parser, line)
@@ -247,7 +249,11 @@ def _player(given: Values) -> Any:
     from rosmini.viz.meshcat import replay_3d
     from rosmini.viz.replay import replay as replay_flat
 
-    return replay_3d if given.solid else replay_flat
+    if not given.solid:
+        return partial(replay_flat, opens_at_end=given.at_end)
+    if given.at_end:
+        raise UsageError("--end is for players without --3d")
+    return replay_3d
 
 
 def _replay(recorders: Sequence[Recorder | Tape], given: Values, topics: Sequence[str] | None) -> Replay:
@@ -256,7 +262,7 @@ def _replay(recorders: Sequence[Recorder | Tape], given: Values, topics: Sequenc
 
     robots = [recorder for recorder in recorders if isinstance(recorder, Recorder)]
     if not robots:
-        if given.solid or given.words:
+        if given.solid or given.at_end or given.words:
             raise UsageError("turtles are flat and have no layers: write %replay without arguments")
         tapes = [recorder for recorder in recorders if not isinstance(recorder, Recorder)]
         return Replay(view=turtle_replay(*tapes), recordings=tuple(tapes))

@@ -79,7 +79,6 @@ TO_REWRITE: dict[str, set[str]] = {
     "global_planners": {"private API"},
     "amcl": {"mentions", "private API"},
     "gmapping": {"lines", "mentions"},
-    "hector_mapping": {"lines", "mentions", "private API"},
     "move_base": {"private API"},
     "frontier_exploration": {"columns", "lines", "private API"},
     "explore_lite": {"private API"},

@@ -28,6 +28,7 @@ def test_topics_become_layers_of_the_replay(notebook: Notebook) -> None:
     assert "/path" not in notebook.ok("%replay")
     assert "/path" in notebook.ok("%replay /path")
     assert "/path" in notebook.ok('%replay "*"')
+    assert "opens at the end" in notebook.ok("run = %replay --end\nprint('opens at the', run.view.data['opens'])")
 
 
 def test_turtles_of_two_windows_are_replayed_side_by_side(notebook: Notebook) -> None:
@@ -57,6 +58,7 @@ def test_a_bag_is_replayed(notebook: Notebook, tmp_path: Path) -> None:
         (f"{ROBOT}\n%show /rosout", "/simulator"),
         ("%rosrun turtlesim turtlesim_node\n%show --3d", "/turtlesim"),
         ("%rosrun turtlesim turtlesim_node\n%record\n%replay --3d", "without arguments"),
+        (f"import rosmini\n{ROBOT}\n%record\nrosmini.wait(1)\n%replay --3d --end", "without --3d"),
         ('%click "2D Nav Gaol" 1 2 0', "2D Nav Goal"),
         ('%click "2D Nav Goal" 1', "yaw"),
         ("%click 1 2", "tool"),

@@ -7,17 +7,28 @@ from typing import Any, cast
 
 import numpy as np
 
-from rosmini.book.checks import Script, exercise, expect
+from rosmini.book.checks import Script, exercise, expect, expect_type
+from rosmini.book.drives import launched
 from rosmini.book.trials import Trial, TurtleTrial
+from rosmini.core.maps import GridMap
 from rosmini.core.tf import Buffer, TransformListener
 from rosmini.core.tf.messages import transform_of
 from rosmini.core.tf.rigid import from_rpy, rpy
 from rosmini.core.time import Time
+from rosmini.msgs.geometry_msgs.msg import Twist
+from rosmini.msgs.nav_msgs.msg import OccupancyGrid
 from rosmini.msgs.sensor_msgs.msg import Imu
 from rosmini.navigation.hector_mapping import surface
 from rosmini.navigation.hector_mapping.node import HectorMapping
 from rosmini.ros.scripts import rosrun
 
+FRAMES = """
+<launch>
+  <include file="$(find turtlebot3_bringup)/launch/turtlebot3_remote.launch">
+    <arg name="model" value="burger"/>
+  </include>
+</launch>
+"""
 MAPPER = ("_use_tf_scan_transformation:=false", "_pub_map_odom_transform:=false", "_map_size:=200")
 
 
@@ -80,26 +91,55 @@ def around(answer: Script) -> Any:
         return trial.view()
 
 
-@exercise("begin", praise="Two maps with chosen origins can be compared.")
-def begin(answer: Script) -> None:
-    """The map is reset with the robot at (1, 0.5), facing along y."""
-    with Trial("room", "_tf:=false", is_shown=False) as trial:
-        hector = mapper(trial)
-        trial.run(2.0)
-        old = hector.slam.maps
-        trial.start(answer)
-        trial.run(3.0)
-        expect(hector.slam.maps is not old, "The map was not reset.", "use ServiceProxy(name, ResetMapping)")
-        x, y, heading = hector.slam.pose
+@exercise("fits", praise="The map has room where the building is.")
+def fits(answer: Any) -> Any:
+    """A launch file whose map contains a building of 12 m by 8 m, with the robot at one end."""
+    expect_type(answer, str, "fits is", "a text")
+    with Trial("floor", "_tf:=false") as trial:
+        unit = trial.graph.node("unit")
+        buffer = TransformListener(unit, Buffer(unit)).buffer
+        maps: list[Any] = []
+        unit.subscriber("map", OccupancyGrid, maps.append)
+        driver = unit.publisher("cmd_vel", Twist, queue_size=1)
+        launched(FRAMES, trial.graph)
+        launched(answer, trial.graph)
+        expect("/hector_mapping" in trial.graph.nodes, "There is no node /hector_mapping.", "include the launch file")
+        ahead = Twist()
+        ahead.linear.x = 0.2
+        path = []
+        for _ in range(200):
+            driver.publish(ahead)
+            trial.run(0.1)
+            path.append(trial.robot.truth())
+        expect(bool(maps), "There is no map on /map.", "keep the topics of turtlebot3_hector.launch")
+        found = GridMap.from_message(maps[-1])
+        height, width = found.occupancy.shape
         expect(
-            math.dist((x, y), (1.0, 0.5)) < 0.1,
-            f"The robot is at ({x:.1f}, {y:.1f}), not at (1.0, 0.5).",
-            "set the position of initial_pose, a geometry_msgs/Pose",
+            width <= 256 and math.isclose(found.resolution, 0.05, abs_tol=1e-6),
+            f"The map has {width} x {height} cells of {found.resolution:.3g} m, but at most 256 of 0.05 m are allowed.",
+            "map_size is the number of cells along each side",
         )
+        _expect_room(found)
         expect(
-            abs(math.degrees(heading) - 90) < 5,
-            f"The robot's heading is {math.degrees(heading):.0f} degrees, not 90.",
-            "a quarter turn has z = sin(45 degrees) and w = cos(45 degrees)",
+            buffer.can_transform_core("map", "base_footprint", Time())[0],
+            "There is no transform from map to base_footprint.",
+            "this robot has no odometry: set odom_frame to the robot's own frame",
+        )
+        return found.show(path=np.array(path), title="The map, and the robot's path")
+
+
+def _expect_room(found: GridMap) -> None:
+    """Expect that the building lies in a map whose origin is where the robot started."""
+    height, width = found.occupancy.shape
+    for axis, (low, high), cells in ((0, (-1.0, 11.0), width), (1, (-4.0, 4.0), height)):
+        start = found.origin[axis]
+        end = start + cells * found.resolution
+        name = "xy"[axis]
+        expect(
+            start < low + 0.01 and end > high - 0.01,
+            f"Along {name} the map reaches from {start:.1f} m to {end:.1f} m, but the building from {low:g} m to "
+            f"{high:g} m, seen from the robot.",
+            f"map_start_{name} is the place of the robot in the map, from 0 to 1",
         )
 
 

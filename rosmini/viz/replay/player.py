@@ -99,9 +99,10 @@ class ReplayView(MovingView):
     call = "rosminiReplay.mount"
     height = HEIGHT
 
-    def __init__(self, runs: Sequence[PlayerRun], *, title: str | None = None) -> None:
+    def __init__(self, runs: Sequence[PlayerRun], *, title: str | None = None, opens_at_end: bool = False) -> None:
         self.runs = tuple(runs)
         self.title = title
+        self.opens_at_end = opens_at_end
         layered = any(run.needs_layers for run in self.runs)
         self.scripts = (*SCRIPTS, LAYER_SCRIPT) if layered else SCRIPTS
 
@@ -144,10 +145,11 @@ class ReplayView(MovingView):
     @cached_property
     def data(self) -> dict[str, Any]:
         """The data for the script; layers are thinned until the page is small enough."""
+        more = {"opens": "end"} if self.opens_at_end else {}
         if len(self.runs) == 1:
-            return self.runs[0].data(BUDGET)
+            return self.runs[0].data(BUDGET) | more
         each = BUDGET // len(self.runs)
-        return {"runs": [{**run.data(each), "title": run.name} for run in self.runs]}
+        return {"runs": [{**run.data(each), "title": run.name} for run in self.runs]} | more
 
     @property
     def name(self) -> str:
@@ -177,6 +179,7 @@ def replay(
     topics: Collection[str] | None = None,
     frame: str | None = None,
     robot: str | RobotModel | None = None,
+    opens_at_end: bool = False,
 ) -> ReplayView:
     """Return a player for a recorded run, or for several side by side with one clock.
 
@@ -190,6 +193,7 @@ def replay(
         topics: show only these topics of a bag or of a recorder; None for all that can be shown.
         frame: the frame in which messages are drawn; None for the first of map, odom and world that exists.
         robot: how the robots of a bag look from above: a model or its name; None for an arrowhead.
+        opens_at_end: show the end at first, not the start.
 
     Raises:
         ViewError: a source cannot be played, or contains nothing to show.
@@ -202,7 +206,9 @@ def replay(
     known = model(robot) if isinstance(robot, str) else robot
     options: dict[str, Any] = {"topics": topics, "frame": frame}
     return ReplayView(
-        [_shown(source, name, known, options) for source, name in zip(sources, given, strict=True)], title=title
+        [_shown(source, name, known, options) for source, name in zip(sources, given, strict=True)],
+        title=title,
+        opens_at_end=opens_at_end,
     )
 
 

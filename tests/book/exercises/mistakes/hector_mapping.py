@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.book.checks import Script
 
+from .file_system import wrong
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -25,20 +27,15 @@ for _ in range(round(10 * 2 * math.pi / 0.3)):
 wheels.publish(Twist())
 """
 
-BEGIN = """
-import math
-import rospy
-from geometry_msgs.msg import Pose
-from hector_mapping.srv import ResetMapping
-
-rospy.init_node("begin")
-rospy.wait_for_service("restart_mapping_with_new_pose")
-restart = rospy.ServiceProxy("restart_mapping_with_new_pose", ResetMapping)
-pose = Pose()
-pose.position.x, pose.position.y = 1.0, 0.5
-pose.orientation.z = math.sin(math.pi / 4)
-pose.orientation.w = math.cos(math.pi / 4)
-restart(pose)
+FITS = """
+<launch>
+  <include file="$(find turtlebot3_slam)/launch/turtlebot3_hector.launch">
+    <arg name="model" value="burger"/>
+    <arg name="odom_frame" value="base_footprint"/>
+    <arg name="map_size" value="256"/>
+  </include>
+  <param name="hector_mapping/map_start_x" value="0.1"/>
+</launch>
 """
 
 LEVEL = """
@@ -89,10 +86,13 @@ MISTAKES: dict[str, tuple[Callable[[], Any], ...]] = {
         lambda: script(AROUND, ("2 * math.pi", "math.pi")),
         lambda: script(AROUND, ("wheels.publish(command)", "pass")),
     ),
-    "begin": (
-        lambda: script(BEGIN, ("restart(pose)", "print(pose)")),
-        lambda: script(BEGIN, ("1.0, 0.5", "0.5, 1.0")),
-        lambda: script(BEGIN, ("math.pi / 4", "math.pi / 2")),
+    "fits": (
+        wrong(FITS, '  <param name="hector_mapping/map_start_x" value="0.1"/>\n'),
+        wrong(FITS, "256", "512"),
+        wrong(FITS, "start_x", "start_y"),
+        wrong(FITS, '    <arg name="odom_frame" value="base_footprint"/>\n'),
+        wrong(FITS, "turtlebot3_hector", "turtlebot3_gmapping"),
+        lambda: 256,
     ),
     "level": (
         lambda: script(LEVEL, ("pitch, 0)", "pitch, yaw)")),
