@@ -18,7 +18,7 @@ from rosmini.navigation.nav_core import pose_stamped
 from rosmini.ros.launch import Launch, read
 from rosmini.ros.launch.running import in_graph
 
-from .checks import Wrong, expect, expect_type
+from .checks import Script, Wrong, expect, expect_type
 from .trials import Trial
 
 if TYPE_CHECKING:
@@ -69,16 +69,22 @@ class Launched(Trial):
         text: the text.
         simulator: the name of the node that simulates the robots.
         settle: the time until the recording begins [s].
+        before: a script that starts a second before the launch file.
 
     Raises:
         Wrong: roslaunch refuses the text, or it starts no simulator.
 
     """
 
-    def __init__(self, text: str, simulator: str = "/simulator", *, settle: float = 0.1) -> None:
+    def __init__(
+        self, text: str, simulator: str = "/simulator", *, settle: float = 0.1, before: Script | None = None
+    ) -> None:
         from rosmini.sim.recorder import Recorder
 
         self._begin(is_shown=True)
+        if before is not None:
+            self.start(before)
+            self.graph.run(1.0)
         self.launch = launched(text, self.graph, settle)
         found = self.graph.nodes.get(simulator)
         if found is None:
@@ -91,13 +97,17 @@ class Launched(Trial):
 class Drive(Launched):
     """The text of a launch file with the Navigation Stack, started in a graph of its own.
 
+    Args:
+        text: the launch file.
+        before: a script that starts a second before the launch file.
+
     Raises:
         Wrong: roslaunch refuses the text, or it starts no simulator or no `move_base`.
 
     """
 
-    def __init__(self, text: str) -> None:
-        super().__init__(text)
+    def __init__(self, text: str, *, before: Script | None = None) -> None:
+        super().__init__(text, before=before)
         if "/move_base" not in self.graph.nodes:
             self.graph.shutdown()
             raise Wrong("There is no node /move_base.", "include navigation.launch")
@@ -107,6 +117,9 @@ class Drive(Launched):
         self._desk.subscriber(
             "/move_base/result", MoveBaseActionResult, lambda message: self.results.append(message.status.text)
         )
+        self.goals: list[Any] = []
+        """Goals that were published on `move_base_simple/goal`."""
+        self._desk.subscriber("/move_base_simple/goal", PoseStamped, self.goals.append)
         self._goals = self._desk.publisher("/move_base_simple/goal", PoseStamped, queue_size=1)
         self.run(2.0)
 
@@ -147,13 +160,14 @@ def settings_of(answer: Any, name: str) -> dict[str, Any]:
     return found
 
 
-def courier(answer: Any, name: str, start: Pose) -> tuple[Drive, dict[str, Any]]:
+def courier(answer: Any, name: str, start: Pose, *, before: Script | None = None) -> tuple[Drive, dict[str, Any]]:
     """Start the Navigation Stack in the house, with an answer as `move_base`'s settings in YAML.
 
     Args:
         answer: the text of the settings.
         name: the name of the reader's variable.
         start: the pose at which the robot starts.
+        before: a script that starts a second before the Navigation Stack.
 
     Returns:
         The trial, and the settings.
@@ -165,4 +179,4 @@ def courier(answer: Any, name: str, start: Pose) -> tuple[Drive, dict[str, Any]]
     settings = settings_of(answer, name)
     x, y, yaw = start
     text = COURIER.format(x=x, y=y, yaw=yaw, settings=yaml.safe_dump(settings))
-    return Drive(text), settings
+    return Drive(text, before=before), settings

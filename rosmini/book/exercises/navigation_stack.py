@@ -1,123 +1,113 @@
-"""Checks of the exercises in the chapter The Navigation Stack: a number, a goal from a node, and a length."""
+"""Checks of the exercises in the chapter The Navigation Stack: in each the robot drives with the whole stack."""
 
 from __future__ import annotations
 
 import math
-from types import SimpleNamespace
 from typing import Any
 
-from rosmini.book.checks import Script, Wrong, exercise, expect, expect_type
-from rosmini.book.trials import Trial
-from rosmini.msgs import message_class
+from rosmini.book.checks import Script, exercise, expect, expect_type
+from rosmini.book.drives import Drive, courier
 
-# ---- demand: which demand is not met ----
+# ---- stack: a launch file in which two nodes are missing ----
 
-UNMET = 1
-SEEN = {
-    2: "the transform from the map to the laser, through odom, exists",
-    3: "five scans a second arrive, and the position of the laser is known",
-    4: "the footprint is optional, and a robot in an open hall starts without it",
-}
+TABLE = (1.2, 0.9, 0.0)
+"""A free place in the world room."""
 
 
-@exercise(
-    "demand", praise="No node subscribes to the commands: the base's driver is not running, or uses another topic."
-)
-def demand(answer: Any) -> Any:
-    """The first demand is not met: cmd_vel has no subscriber."""
-    expect_type(answer, int, "The answer is", "the number of a demand")
-    expect(answer in (1, *SEEN), f"There is no demand {answer}.", "there are four")
-    expect(answer == UNMET, f"Demand {answer} is met: {SEEN.get(answer, '')}.", "read the first output again")
-    return None
+@exercise("stack", praise="It has a map, knows where it is, and drives.")
+def stack(answer: Any) -> Any:
+    """A launch file with map and localisation, with which the robot drives in the room."""
+    expect_type(answer, str, "stack is", "a text")
+    with Drive(answer) as drive:
+        nodes: Any = drive.graph.nodes
+        expect(
+            drive.robot.world.name == "room",
+            f"The robot is in the world {drive.robot.world.name}, not in the room.",
+            "leave the first tag as it is",
+        )
+        server = nodes.get("/map_server")
+        expect(server is not None, "There is no node /map_server, so there is no map.", "which node publishes /map?")
+        path = server.program.grid.path
+        expect(
+            path is not None and path.name == "room.yaml",
+            f"The robot is in the room, but the map is {path and path.name}.",
+            "the argument of map_server is the file of the map",
+        )
+        expect(
+            "/fake_localization" in nodes or "/amcl" in nodes,
+            "No node publishes the transform from map to odom.",
+            "which node says where the robot is on the map?",
+        )
+        drive.expect_arrival(TABLE, 25.0, "is it the map of this room? Is the chain of transforms complete?")
+        return drive.view()
 
 
 # ---- go_there: a goal from a program ----
 
-PLACE = (-1.0, 2.6)
-LATE = 3.0
-"""Delay before the trial subscribes [s]."""
+PLACE = (-1.0, 2.6, math.pi / 2)
+HALL = (-3.0, 1.0, 0.0)
 
 
-@exercise("go_there", praise="A goal is one message with a frame, a position and a heading.")
+@exercise("go_there", praise="It waited for a subscriber, and the robot has arrived.")
 def go_there(script: Any) -> Any:
-    """The script publishes the goal on move_base_simple/goal, in the frame map, with position and heading."""
+    """The script sends the robot to the dining room, although it starts before the Navigation Stack listens."""
     expect_type(script, Script, "The answer is", "a script")
-    goal_class = message_class("geometry_msgs/PoseStamped")
-    heard: list[Any] = []
-    with Trial("room", is_shown=False) as trial:
-        trial.start(script)
-        trial.run(LATE)
-        trial.graph.node("move_base").subscriber("/move_base_simple/goal", goal_class, heard.append)
-        trial.run(10.0)
-    expect(
-        heard,
-        "There was no goal on move_base_simple/goal. The check subscribed three seconds after the script had started.",
-        "before you publish, wait until get_num_connections() is not 0",
-    )
-    _check_goal(heard[-1])
-    return None
+    drive, _ = courier("{}", "settings", HALL, before=script)
+    with drive:
+        drive.finish(30.0)
+        expect(
+            bool(drive.results),
+            "move_base received no goal, or is not finished with it after 30 s. Your node starts before move_base.",
+            "before you publish, wait until get_num_connections() is not 0; the topic is move_base_simple/goal",
+        )
+        x, y, yaw = drive.robot.truth()
+        expect(
+            "reached" in drive.results[0],
+            f"The robot did not arrive. move_base said: {drive.results[0]}",
+            "check the frame, the position, and that the quaternion has the length 1",
+        )
+        expect(
+            math.dist((x, y), PLACE[:2]) < 0.25,
+            f"The robot is at ({x:.1f}, {y:.1f}), not at {PLACE[:2]}.",
+            "set goal.pose.position, and the frame map",
+        )
+        off = abs(math.remainder(yaw - PLACE[2], math.tau))
+        expect(off < 0.4, f"The robot's heading is {off:.1f} rad off.", "a quarter turn to the left has z = w = 0.7071")
+        return drive.view()
 
 
-def _check_goal(goal: Any) -> None:
-    frame, p, q = goal.header.frame_id, goal.pose.position, goal.pose.orientation
-    expect(frame.lstrip("/") == "map", f"The goal is in the frame {frame!r}, not 'map'.", "set its frame_id")
-    expect(
-        math.dist((p.x, p.y), PLACE) < 0.01,
-        f"The goal is at ({p.x:g}, {p.y:g}), not at {PLACE}.",
-        "set goal.pose.position",
-    )
-    length = math.sqrt(q.x**2 + q.y**2 + q.z**2 + q.w**2)
-    expect(
-        abs(length - 1) < 0.01,
-        f"The quaternion has the length {length:.2f}; move_base accepts only length 1.",
-        "set z and w to 0.7071",
-    )
-    expect(
-        abs(q.z - q.w) < 0.01 and abs(q.x) < 0.01 and abs(q.y) < 0.01,
-        f"The quaternion is ({q.x:g}, {q.y:g}, {q.z:g}, {q.w:g}), which is a different heading.",
-        "a quarter turn to the left has z = w = 0.7071",
-    )
+# ---- nearest: the shortest of four paths ----
 
-
-# ---- length: the length of a path ----
-
-
-def _path(*places: tuple[float, float]) -> list[Any]:
-    made = []
-    for x, y in places:
-        pose = message_class("geometry_msgs/PoseStamped")()
-        pose.pose.position.x, pose.pose.position.y = x, y
-        made.append(pose)
-    return made
-
-
-PATHS = SimpleNamespace(
-    bent=_path((0.0, 0.0), (3.0, 4.0), (3.0, 5.0)),
-    back=_path((1.0, 1.0), (2.0, 1.0), (1.0, 1.0)),
-    one=_path((5.0, 5.0)),
+STARTS = (
+    (HALL, (-5.2, 0.8), "In a straight line (-2.6, 2.4) is nearer, but there is a wall between."),
+    ((-1.0, -1.0, 1.57), (-2.2, -0.9), "The place depends on where the robot starts."),
 )
 
 
-@exercise("length", praise="This is the distance that the robot drives; the straight line is shorter.")
-def length(function: Any) -> Any:
-    """The sum of the distances from each pose to the next."""
-    expect(callable(function), "The answer is not a function.", "write def length(poses): ...")
-    for poses, wanted, what in (
-        (PATHS.bent, 6.0, "a path of 5 m and then 1 m"),
-        (PATHS.back, 2.0, "a path of 1 m and back again"),
-        (PATHS.one, 0.0, "a path of one pose"),
-        ([], 0.0, "an empty path"),
-    ):
-        try:
-            found = function(poses)
-        except Exception as error:
-            raise Wrong(
-                f"For {what} it fails: {type(error).__name__}: {error}", "try it with one pose and with none"
-            ) from error
-        expect_type(found, (int, float), f"For {what} the answer is", "a number")
-        expect(
-            abs(found - wanted) < 1e-6,
-            f"For {what} it returned {found:.2f} m, not {wanted:.2f} m.",
-            "add up the distances from each pose to the next",
-        )
-    return None
+@exercise("nearest", praise="It planned four paths, and drove the shortest.", gaps=2)
+def nearest(script: Any) -> Any:
+    """The script drives to the customer with the shortest path, from two starts."""
+    expect_type(script, Script, "The answer is", "a script")
+    for start, place, why in STARTS:
+        drive, _ = courier("{}", "settings", start)
+        with drive:
+            drive.start(script)
+            drive.run(5.0)
+            drive.expect_no_errors()
+            where = f"The robot starts at {start[:2]}"
+            expect(bool(drive.goals), f"{where}. After 5 s there was no goal.", "publish one on move_base_simple/goal")
+            goal = drive.goals[-1].pose.position
+            expect(
+                math.dist((goal.x, goal.y), place) < 0.1,
+                f"{where}. Your node sent it to ({goal.x:.1f}, {goal.y:.1f}), not to {place}. {why}",
+                "compare the lengths of the paths; an empty path leads nowhere",
+            )
+            drive.finish(30.0)
+            said = drive.results[0] if drive.results else "nothing"
+            expect(
+                "reached" in said,
+                f"{where}. It did not arrive; move_base said: {said}",
+                "publish the goal once, with its frame and a heading",
+            )
+            view = drive.view()
+    return view
