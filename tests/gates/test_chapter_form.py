@@ -79,7 +79,6 @@ TO_REWRITE: dict[str, set[str]] = {
     "amcl": {"mentions", "private API"},
     "gmapping": {"lines", "mentions"},
     "move_base": {"private API"},
-    "frontier_exploration": {"columns", "lines", "private API"},
     "explore_lite": {"private API"},
     "many_turtlebots": {"columns", "hints", "lines", "private API"},
 }

@@ -1,4 +1,4 @@
-"""The chapter Frontier exploration: the robot stops exploring by itself, as the text says."""
+"""The chapter Frontier exploration: its cells show what the text says."""
 
 from __future__ import annotations
 
@@ -6,14 +6,30 @@ from .conftest import printed
 
 
 def test_it_ends_by_itself_as_the_text_says(cells):
-    assert "Finished exploring room" in printed(cells, "rosmini.wait(45)")
-    assert printed(cells, "ask = rospy").strip() == "No valid frontiers found, exploration complete"
+    assert "Finished exploring room" in printed(cells, "%record")
+
+
+def test_the_second_graph_has_the_clicks_and_the_polygon(figures):
+    assert "/explore_client (not connected)" in figures[2]
+    assert "/rviz -> /clicked_point" in figures[5]
+    assert "/explore_client -> /exploration_polygon_marker" in figures[5]
+    assert "/explore_client -> /explore_server/goal" in figures[5]
 
 
 def test_frontiers_by_hand(cells):
-    assert printed(cells, "def is_frontier").count("F") == 4
-    assert "cells around" in printed(cells, "find_frontiers(before")
+    assert printed(cells, "def frontier_cells").count("F") == 4
 
 
-def test_a_polygon_whose_edges_cross_is_refused(cells):
-    assert "Not a valid polygon, restarting: the edges after vertices 1 and 3" in printed(cells, "(2, 2), (2, 0)")
+def test_the_server_names_a_frontier(cells):
+    assert 'frame_id: "map"' in printed(cells, "get_next_frontier")
+
+
+def test_invalid_polygons_are_refused(cells):
+    assert "Not a valid polygon, restarting: the edges after vertices 1 and 3" in printed(cells, '"Publish Point" 2 0')
+    assert "Center not inside polygon" in printed(cells, '"Publish Point" 3 3')
+
+
+def test_a_second_move_base_loses_the_goal(cells):
+    said = printed(cells, "move_base.launch model:=burger\n%rosservice")
+    assert "new node registered with same name" in said
+    assert "Failed to move to" in said

@@ -17,7 +17,7 @@ rospy.init_node("clicker")
 clicks = rospy.Publisher("/clicked_point", PointStamped, queue_size=10)
 while clicks.get_num_connections() == 0:
     rospy.sleep(0.1)
-for x, y in [(-2, -2), (2, -2), (2, 2), (-2, 2), (-2, -2), (0, 0)]:
+for x, y in [(-1.3, -1.3), (4.8, -1.3), (4.8, 3.3), (-1.3, 3.3), (-1.3, -1.3), (0.3, 0.2)]:
     click = PointStamped()
     click.header.frame_id = "map"
     click.point.x, click.point.y = x, y
@@ -25,19 +25,25 @@ for x, y in [(-2, -2), (2, -2), (2, 2), (-2, 2), (-2, -2), (0, 0)]:
     rospy.sleep(0.5)
 """
 
-SURVEYOR = """
+ENOUGH = """
 import rospy
+from actionlib_msgs.msg import GoalID
 from nav_msgs.msg import OccupancyGrid
 from std_msgs.msg import Float64
 
 
 def on_map(grid):
     known = sum(value >= 0 for value in grid.data)
-    area.publish(known * grid.info.resolution**2)
+    square_metres = known * grid.info.resolution**2
+    area.publish(square_metres)
+    if square_metres >= enough:
+        cancel.publish(GoalID())
 
 
 rospy.init_node("surveyor")
+enough = rospy.get_param("~enough", 12.0)
 area = rospy.Publisher("known_area", Float64, queue_size=1)
+cancel = rospy.Publisher("explore_server/cancel", GoalID, queue_size=1)
 rospy.Subscriber("map", OccupancyGrid, on_map)
 rospy.spin()
 """
@@ -88,17 +94,19 @@ def _recursive() -> Any:
 MISTAKES: dict[str, list[Callable[[], Any]]] = {
     "sizes": [_sizes(corners=False), _sizes(rising=True), _sizes(destroys=True), _recursive, lambda: len],
     "clicker": [
-        _but(CLICKER, "(-2, 2), (-2, -2)", "(-2, 2)"),
-        _but(CLICKER, "(-2, -2), (0, 0)]", "(-2, -2)]"),
-        _but(CLICKER, "(2, 2), (-2, 2)", "(-2, 2), (2, 2)"),
+        _but(CLICKER, "(-1.3, 3.3), (-1.3, -1.3)", "(-1.3, 3.3)"),
+        _but(CLICKER, "(-1.3, -1.3), (0.3, 0.2)]", "(-1.3, -1.3)]"),
+        _but(CLICKER, "(4.8, 3.3), (-1.3, 3.3)", "(-1.3, 3.3), (4.8, 3.3)"),
         _but(CLICKER, '"map"', '"odom"'),
         _but(CLICKER, "clicks.get_num_connections() == 0", "False"),
-        _but(CLICKER, "x, y\n    clicks", "x / 2, y / 2\n    clicks"),
+        _but(CLICKER, "(0.3, 0.2)]", "(0.0, 2.2)]"),
     ],
-    "surveyor": [
-        _but(SURVEYOR, ">= 0", "== 0"),
-        _but(SURVEYOR, "**2", ""),
-        _but(SURVEYOR, ">= 0", "< 0"),
-        _but(SURVEYOR, "known * grid.info.resolution**2", "known * 0.0025"),
+    "enough": [
+        _but(ENOUGH, "value >= 0", "value == 0"),
+        _but(ENOUGH, "**2", ""),
+        _but(ENOUGH, "known * grid.info.resolution**2", "known * 0.0025"),
+        _but(ENOUGH, "square_metres >= enough", "square_metres >= 12"),
+        _but(ENOUGH, "    if square_metres >= enough:\n        cancel.publish(GoalID())\n", ""),
+        _but(ENOUGH, "cancel.publish(GoalID())", "rospy.signal_shutdown('enough')"),
     ],
 }
