@@ -220,6 +220,7 @@ def judge(night: Night, what: Trouble) -> None:
 
 STACK = """
 <launch>
+  <param name="/simulator/obstacles" value="true"/>
   <include file="$(find rosmini_sim)/launch/navigation.launch">
     <arg name="x" value="{x}"/>
     <arg name="y" value="{y}"/>
@@ -321,7 +322,8 @@ def _started(folder: Path, file: Path, said: str) -> Patrol:
     relative = file.relative_to(folder)
     try:
         expect(file.is_file(), f"There is no file {relative}.")
-        drive = Patrol(f'<launch><include file="{file}"/></launch>', said)
+        shown = '<param name="/simulator/obstacles" value="true"/>'
+        drive = Patrol(f'<launch>{shown}<include file="{file}"/></launch>', said)
     except Wrong as wrong:
         raise Wrong(str(wrong).replace(str(folder), folder.name), wrong.hint) from wrong
     try:
