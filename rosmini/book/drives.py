@@ -137,6 +137,10 @@ class Drive(Launched):
         x, y, _ = self.robot.truth()
         return math.dist((x, y), goal[:2])
 
+    def driven(self) -> list[tuple[float, float]]:
+        """Return the true positions of the robot so far [m]."""
+        return [(float(x), float(y)) for x, y, _ in self._recorder.recording().truth]
+
     def expect_arrival(self, goal: Pose, seconds: float, hint: str) -> None:
         """Expect that the robot reaches a goal in this time."""
         off = self.go(goal, seconds)

@@ -2,54 +2,61 @@
 
 from __future__ import annotations
 
-import math
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 
 from rosmini.book.checks import Script, exercise, expect, expect_type
+from rosmini.book.drives import Drive, courier
 from rosmini.book.trials import TurtleTrial
 from rosmini.core.maps import GridMap
+from rosmini.msgs.geometry_msgs.msg import PointStamped
 from rosmini.msgs.nav_msgs.msg import OccupancyGrid
-from rosmini.msgs.std_msgs.msg import String
-from rosmini.navigation.map_server.node import MapServer
-from rosmini.ros.scripts import rosrun
+from rosmini.msgs.std_msgs.msg import Int8, String
 
-# ---- cell_of: cells ----
+# ---- here: the value of a cell ----
 
 PLACES = (
-    ((0.0, 0.0, 0.0), (0.31, 0.12), "divide by the resolution, and round down"),
+    ((0.0, 0.0, 0.0), (0.37, 0.12), "divide by the resolution, round down; the index is row * width + column"),
     ((-5.0, 2.0, 0.0), (-4.31, 2.12), "subtract the origin first"),
-    ((-5.0, 2.0, 0.0), (-5.01, 2.12), "int() rounds towards 0, so cell -0.1 becomes cell 0: use math.floor"),
+    ((-5.0, 2.0, 0.0), (-5.01, 2.12), "int() rounds towards 0, so column -0.1 becomes 0: use math.floor"),
     ((1.0, -2.0, 0.0), (1.2, -1.6), "rows go from 0 to height - 1"),
     ((1.0, -2.0, 0.0), (2.1, -1.9), "columns go from 0 to width - 1"),
-    ((1.0, 2.0, math.pi / 2), (0.95, 2.55), "rotate the difference by minus the yaw"),
-    ((1.0, 2.0, -0.7), (1.4, 1.8), "rotate the difference by minus the yaw"),
-    ((-1.0, -1.0, 0.4), (-0.9, -0.4), "rotate the difference by minus the yaw"),
 )
 
 
-@exercise("cell_of", praise="RViz, amcl and every costmap contain these lines.")
-def cell_of(answer: Any) -> None:
-    """The cell of a point, or None outside the map, with a rotated origin."""
-    cells = np.zeros((3, 10), dtype=np.int8)
-    for origin, place, hint in PLACES:
+@exercise("here", praise="RViz, amcl and every costmap contain these lines.")
+def here(answer: Script) -> None:
+    """The value of the map at a clicked point; -1 outside the map."""
+    expect_type(answer, Script, "The answer is", "a script")
+    cells = np.arange(30, dtype=np.int8).reshape(3, 10)
+    for origin in dict.fromkeys(origin for origin, _, _ in PLACES):
         grid = GridMap(cells, 0.1, origin)
-        found = answer(*place, grid.to_message().info)
-        wanted = grid.world_to_map(*place)
-        where = f"On a map of 10 x 3 cells of 0.1 m with its origin at {tuple(round(n, 2) for n in origin)}"
-        if isinstance(found, list | np.ndarray):
-            found = tuple(found)
-        expect(
-            found is None or (isinstance(found, tuple) and len(found) == 2),
-            f"{where} it returned {found!r} for {place}.",
-            "return two whole numbers, (mx, my), or None",
-        )
-        expect(found == wanted, f"{where} the point {place} is {_named(wanted)}, not {_named(found)}.", hint)
-
-
-def _named(cell: tuple[int, int] | None) -> str:
-    return "outside" if cell is None else f"in the cell ({cell[0]}, {cell[1]})"
+        with TurtleTrial(None) as trial:
+            desk = trial.graph.node("desk")
+            desk.publisher("map", OccupancyGrid, latch=True, queue_size=1).publish(grid.to_message())
+            clicks = desk.publisher("clicked_point", PointStamped, queue_size=5)
+            heard: list[Any] = []
+            desk.subscriber("cell_value", Int8, heard.append)
+            trial.start(answer)
+            trial.run(1.0)
+            for _, (x, y), hint in (place for place in PLACES if place[0] == origin):
+                point = PointStamped()
+                point.header.frame_id, point.point.x, point.point.y = "map", x, y
+                heard.clear()
+                clicks.publish(point)
+                trial.run(0.5)
+                where = f"On a map of 10 x 3 cells of 0.1 m with its origin at {origin[:2]}"
+                trial.expect_no_errors()
+                expect(bool(heard), f"{where} a click at ({x}, {y}) gave no message on cell_value.", "publish an Int8")
+                cell = grid.world_to_map(x, y)
+                wanted = -1 if cell is None else int(cells[cell[1], cell[0]])
+                said = "outside" if cell is None else f"in column {cell[0]} and row {cell[1]}"
+                expect(
+                    heard[-1].data == wanted,
+                    f"{where} the point ({x}, {y}) is {said}. The value is {wanted}, not {heard[-1].data}.",
+                    hint,
+                )
 
 
 # ---- classify: pixels ----
@@ -86,10 +93,14 @@ def classify(answer: Any) -> None:
 
 # ---- keepout: no entry ----
 
+KEEPOUT = "global_costmap: {static_layer: {map_topic: keepout_map}}"
+CORRIDOR, FAR_END = (-1.3, 0.6, 0.0), (1.6, 0.6, 0.0)
 
-@exercise("keepout", praise="The planner of the chapter Global planners will plan around this square.")
-def keepout(answer: Script) -> None:
-    """A node that marks a square metre of any map as occupied."""
+
+@exercise("keepout", praise="The robot drives round the wet floor, although its laser sees nothing there.")
+def keepout(answer: Script) -> Any:
+    """A node that marks a square metre of any map as occupied, so that a robot drives round it."""
+    expect_type(answer, Script, "The answer is", "a script")
     for resolution, origin in ((0.5, (-1.0, -1.0, 0.0)), (0.25, (0.5, -0.75, 0.0))):
         cells = np.tile(np.array([0, -1, 0, 100, 0, 0], dtype=np.int8), (5, 1))
         grid = GridMap(cells, resolution, origin)
@@ -107,6 +118,12 @@ def keepout(answer: Script) -> None:
                 "publish with latch=True",
             )
             _expect_closed(grid, heard[-1])
+    drive, _ = courier(KEEPOUT, "settings", CORRIDOR, before=answer)
+    with drive:
+        drive.expect_arrival(FAR_END, 40.0, "publish each map that you receive")
+        inside = [(x, y) for x, y in drive.driven() if 0 < x < 1 and 0 < y < 1]
+        expect(not inside, f"The robot drove through the forbidden square, at {inside[:1]}.", "publish on keepout_map")
+        return drive.view()
 
 
 def _expect_closed(grid: GridMap, message: Any) -> None:
@@ -126,33 +143,39 @@ def _expect_closed(grid: GridMap, message: Any) -> None:
         my, mx = wrong[0].tolist()
         expect(
             False,
-            f"{where} the cell ({mx}, {my}) is {found[my, mx]}, not {wanted[my, mx]}.",
-            "the centre of a cell is origin + (index + 0.5) * resolution, and its value is data[my * width + mx]",
+            f"{where} the cell in column {mx} and row {my} is {found[my, mx]}, not {wanted[my, mx]}.",
+            "the centre of a cell is origin + (index + 0.5) * resolution, and its value is data[row * width + column]",
         )
 
 
 # ---- lift: the lift ----
 
 MAPS = "package://rosmini_sim/maps/"
+WRONG_FLOOR = """
+<launch>
+  <include file="$(find rosmini_sim)/launch/navigation.launch">
+    <arg name="map_file" value="$(find rosmini_sim)/maps/floor.yaml"/>
+  </include>
+</launch>
+"""
 
 
-@exercise("lift", praise="The robot still needs its initial pose on the new floor.")
-def lift(answer: Script) -> None:
-    """A node that makes the server change maps, and handles a missing map."""
-    with TurtleTrial(None) as trial:
-        # its log contains paths of this machine
-        started = rosrun("map_server", "map_server", f"{MAPS}floor.yaml", graph=trial.graph, capture_output=True)
-        server: MapServer = cast("Any", started).instance()
-        trial.start(answer)
-        button = trial.graph.node("button").publisher("floor", String, queue_size=5)
-        trial.run(1.0)
-        for name in ("house.yaml", "cellar.yaml", "office.yaml"):
-            errors = trial.output.count("[ERROR]")
+@exercise("lift", praise="With the map of its floor the robot finds its way.")
+def lift(answer: Script) -> Any:
+    """A node that makes the server change maps, and handles a missing map; then the robot drives."""
+    expect_type(answer, Script, "The answer is", "a script")
+    with Drive(WRONG_FLOOR) as drive:
+        server: Any = drive.graph.nodes["/map_server"].program
+        drive.start(answer)
+        button = drive.graph.node("button").publisher("floor", String, queue_size=5)
+        drive.run(1.0)
+        for name in ("office.yaml", "cellar.yaml", "house.yaml"):
+            errors = drive.output.count("[ERROR]")
             button.publish(String(MAPS + name))
-            trial.run(0.5)
-            failed = trial.output.count("[ERROR]") > errors
+            drive.run(0.5)
+            failed = drive.output.count("[ERROR]") > errors
             if name == "cellar.yaml":
-                logged = trial.output.rpartition("[ERROR]")[2]
+                logged = drive.output.rpartition("[ERROR]")[2]
                 expect(
                     " raised " not in logged,
                     f"There is no {name}, and your callback raises an error.",
@@ -171,3 +194,5 @@ def lift(answer: Script) -> None:
                 f"The lift stopped at {name}, but the server has the map {shown and shown.name}.",
                 "call change_map(message.data)",
             )
+        drive.expect_arrival((-1.5, 0.8, 0.0), 25.0, "change the map once for each message")
+        return drive.view()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,6 +10,34 @@ from rosmini.book.checks import Script
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+HERE = """
+import math
+
+import rospy
+from geometry_msgs.msg import PointStamped
+from nav_msgs.msg import OccupancyGrid
+from std_msgs.msg import Int8
+
+
+def on_point(point):
+    info = grid.info
+    x = point.point.x - info.origin.position.x
+    y = point.point.y - info.origin.position.y
+    column = math.floor(x / info.resolution)
+    row = math.floor(y / info.resolution)
+    if 0 <= column < info.width and 0 <= row < info.height:
+        value.publish(grid.data[row * info.width + column])
+    else:
+        value.publish(-1)
+
+
+rospy.init_node("here")
+grid = rospy.wait_for_message("map", OccupancyGrid)
+value = rospy.Publisher("cell_value", Int8, queue_size=1)
+rospy.Subscriber("clicked_point", PointStamped, on_point)
+rospy.spin()
+"""
 
 KEEPOUT = """
 import rospy
@@ -61,26 +88,6 @@ def _but(right: str, old: str, new: str) -> Callable[[], Script]:
     return lambda: Script("answer.py", right.replace(old, new))
 
 
-def _cell(
-    *,
-    sign: float = -1.0,
-    divide: Callable[[float], int] = math.floor,
-    shift: bool = True,
-    bounds: bool = True,
-    swapped: bool = False,
-) -> Callable[[], Any]:
-    def cell_of(x: float, y: float, info: Any) -> Any:
-        place, q = info.origin.position, info.origin.orientation
-        dx, dy = (x - place.x, y - place.y) if shift else (x, y)
-        yaw = sign * 2 * math.atan2(q.z, q.w)
-        c, s = math.cos(yaw), math.sin(yaw)
-        mx, my = divide((c * dx - s * dy) / info.resolution), divide((s * dx + c * dy) / info.resolution)
-        width, height = (info.height, info.width) if swapped else (info.width, info.height)
-        return (mx, my) if not bounds or (0 <= mx < width and 0 <= my < height) else None
-
-    return lambda: cell_of
-
-
 def _classify(
     *, flip: bool = True, negate: bool = True, strict: bool = True, wrap: bool = False, kind: Any = np.array
 ) -> Callable[[], Any]:
@@ -98,15 +105,15 @@ def _classify(
 
 
 MISTAKES = {
-    "cell_of": [
-        _cell(sign=1.0),
-        _cell(sign=0.0),
-        _cell(divide=int),
-        _cell(divide=round),
-        _cell(shift=False),
-        _cell(bounds=False),
-        _cell(swapped=True),
-        lambda: lambda x, y, info: [0, 0],
+    "here": [
+        _but(HERE, "math.floor(", "int("),
+        _but(HERE, "math.floor(", "round("),
+        _but(HERE, " - info.origin.position.x", ""),
+        _but(HERE, " - info.origin.position.y", ""),
+        _but(HERE, "if 0 <= column < info.width and 0 <= row < info.height", "if True"),
+        _but(HERE, "info.width and 0 <= row < info.height", "info.height and 0 <= row < info.width"),
+        _but(HERE, "row * info.width + column", "column * info.height + row"),
+        _but(HERE, "    else:\n        value.publish(-1)\n", ""),
     ],
     "classify": [
         _classify(flip=False),
