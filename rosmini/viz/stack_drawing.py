@@ -10,7 +10,7 @@ from rosmini.viz.svg import element
 from rosmini.viz.view import Picture
 
 DISTRIBUTION = ("turtlebot3", "slam_gmapping", "hector_slam", "navigation", "geometry2", "common_msgs", "ros_comm")
-"""Some stacks of ROS Noetic, those that need others first."""
+"""Some stacks of ROS Noetic; most of them need some of those that come later."""
 NAVIGATION = (
     "move_base",
     "move_base_msgs",
