@@ -91,7 +91,11 @@ class Launched(Trial):
             self.graph.shutdown()
             raise Wrong(f"There is no node {simulator}.", "the launch file starts the simulator")
         self.simulation = self.robot = found.program
-        self._recorder = Recorder(self.graph, found.program)
+        try:
+            self._recorder = Recorder(self.graph, found.program)
+        except RosminiError as error:
+            self.graph.shutdown()
+            raise Wrong("The simulator has no robot.", "spawn_model needs -urdf, -model and -param") from error
 
 
 class Drive(Launched):

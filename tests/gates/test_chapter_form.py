@@ -79,7 +79,6 @@ TO_REWRITE: dict[str, set[str]] = {
     "gmapping": {"lines", "mentions"},
     "move_base": {"private API"},
     "explore_lite": {"private API"},
-    "many_turtlebots": {"columns", "hints", "lines", "private API"},
 }
 
 
