@@ -35,9 +35,9 @@ def rows(page: str) -> dict[str, str]:
 
 
 def prose(chapter: Path) -> list[str]:
-    """The Markdown cells without code blocks, formulas, and addresses of links."""
+    """The Markdown cells without numbers that link to a row, code blocks, formulas, and addresses of links."""
     cells = [cell.source for cell in nbformat.read(chapter, 4).cells if cell.cell_type == "markdown"]
-    return [re.sub(r"```.*?```|\$\$.*?\$\$|\]\([^)]*\)", "", text, flags=re.DOTALL) for text in cells]
+    return [re.sub(r"```.*?```|\$\$.*?\$\$|\]\([^)]*\)", "", ROW.sub("", text), flags=re.DOTALL) for text in cells]
 
 
 def shown(chapter: Path) -> list[float]:
@@ -68,7 +68,7 @@ def claims(chapter: Path) -> list[str]:
     known = STATED.get(chapter.stem.partition("_")[2], set())
     found = []
     for text in prose(chapter):
-        for claim in CLAIM.finditer(re.sub(ROW, "", text)):
+        for claim in CLAIM.finditer(text):
             amounts = [each for each in (claim[1], claim[2], claim[4], claim[5]) if each]
             if claim[0] not in known and not all(
                 is_shown(each, numbers, hundredths=bool(claim[3])) for each in amounts
