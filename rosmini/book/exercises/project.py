@@ -296,6 +296,8 @@ def project(answer: Any) -> Any:
 
     name, *seeds = answer if isinstance(answer, tuple) else (answer,)
     expect_type(name, str, "project is", "the name of a package")
+    seeds_said = "The seeds must be whole numbers from 0."
+    expect(all(isinstance(seed, int) and seed >= 0 for seed in seeds), seeds_said, '("patrol_robot", 4, 5)')
     return grid(*(night.view for night in nights(name, seeds or SEEDS)), columns=1)
 
 

@@ -82,6 +82,7 @@ MISTAKES = {
     "project": [
         lambda: "no_such_package",
         lambda: 7,
+        lambda: ("rosmini_sim", -1),
         package("launch/patrol.launch", FILES["launch/patrol.launch"]),
         package("param/places.yaml", FILES["param/places.yaml"]),
         package("test/patrol.test", FILES["test/patrol.test"]),
