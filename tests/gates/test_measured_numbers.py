@@ -24,7 +24,7 @@ STATED: dict[str, set[str]] = {
     "tune_and_fix": {"85 cm", "91 cm"},
 }
 """Sizes of things, and what follows by a formula from numbers that the reader sees: nothing that was measured here."""
-REWRITTEN = {"maps", "amcl", "explore_lite"}
+REWRITTEN = {"maps", "explore_lite"}
 """These chapters are being rewritten."""
 
 

@@ -7,27 +7,40 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.book.checks import Script, exercise, expect, expect_number
+from rosmini.book.checks import Script, exercise, expect
+from rosmini.book.drives import Drive
 from rosmini.book.trials import TurtleTrial
-from rosmini.msgs.geometry_msgs.msg import PoseWithCovarianceStamped
+from rosmini.msgs.geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
 
 PLACES = ((1.0, 0.5, math.pi / 2), (-2.0, 3.0, -0.6))
 """Poses of the robot in the two trials of exercise here_i_am."""
 SURE = 0.15
 """Required standard deviations of x and y there [m]."""
-
-
-@exercise("effective", praise="This is the number of particles that still count.")
-def effective(answer: Any) -> None:
-    """The effective number of particles, also if the weights do not add up to one."""
-    for weights, wanted in (([0.25] * 4, 4.0), ([1.0, 0.0, 0.0], 1.0), ([2.0, 2.0, 4.0], 8 / 3)):
-        found = expect_number(answer(np.array(weights)), "number of particles")
-        hint = "divide the weights by their sum, then return 1 over the sum of their squares"
-        expect(
-            math.isclose(found, wanted, rel_tol=1e-6),
-            f"For the weights {weights} it returned {found:.3f}, not {wanted:.3f}.",
-            hint,
-        )
+STATION = (0.9, 2.6, 3.14)
+"""Pose of the robot that drives after that."""
+LOST = (1.2, -0.9, 0.0)
+"""Pose of the robot in exercise find_yourself."""
+CHILDS_ROOM = (-2.2, -1.2)
+SURE_ENOUGH = 0.2
+"""Standard deviation of x and y below which that robot may drive [m]."""
+FINDS = """{min_particles: 100, max_particles: 10000, kld_err: 0.01, odom_model_type: diff-corrected, odom_alpha1: 0.1,
+  odom_alpha2: 0.1, odom_alpha3: 0.1, odom_alpha4: 0.1, laser_model_type: likelihood_field_prob, laser_z_hit: 0.95,
+  laser_z_rand: 0.05, laser_sigma_hit: 0.8, update_min_d: 0.06, update_min_a: 0.06, resample_interval: 8}"""
+MORNING = """
+<launch>
+  <include file="$(find rosmini_sim)/launch/navigation.launch">
+    <arg name="localization" value="amcl"/>
+    <arg name="x" value="{x}"/>
+    <arg name="y" value="{y}"/>
+    <arg name="yaw" value="{yaw}"/>
+    <arg name="initial_pose_x" value="-3.0"/>
+    <arg name="initial_pose_y" value="1.0"/>
+    <arg name="initial_pose_a" value="0.0"/>
+  </include>
+  <rosparam ns="amcl">{settings}</rosparam>
+</launch>
+"""
+"""A robot that is not where amcl begins."""
 
 
 @exercise("systematic", praise="With one random number, each particle gets its share, give or take one.")
@@ -66,9 +79,9 @@ def systematic(answer: Any) -> None:
             )
 
 
-@exercise("here_i_am", praise="amcl would start its search for the robot at this pose.")
-def here_i_am(answer: Script) -> None:
-    """A script that publishes its parameters as an initial pose."""
+@exercise("here_i_am", praise="amcl knows where the robot is, and it drives.")
+def here_i_am(answer: Script) -> Any:
+    """A script that publishes its parameters as an initial pose, with which a robot then drives to its goal."""
     for x, y, yaw in PLACES:
         with TurtleTrial(None) as trial:
             heard: list[Any] = []
@@ -81,6 +94,12 @@ def here_i_am(answer: Script) -> None:
                 "wait for a subscriber after rospy.Publisher, or latch the topic",
             )
             _check_pose(heard[-1], (x, y, yaw))
+    x, y, yaw = STATION
+    with Drive(MORNING.format(x=x, y=y, yaw=yaw, settings="{}")) as drive:
+        drive.start(answer, f"_x:={x}", f"_y:={y}", f"_yaw:={yaw}")
+        drive.run(5.0)
+        drive.expect_arrival((-1.0, 1.0, 3.14), 40.0, "publish the pose once: amcl begins there again each time")
+        return drive.view()
 
 
 def _check_pose(message: Any, wanted: tuple[float, float, float]) -> None:
@@ -114,3 +133,46 @@ def _check_pose(message: Any, wanted: tuple[float, float, float]) -> None:
     rest = covariance.copy()
     rest[[0, 1, 5], [0, 1, 5]] = 0.0
     expect(not rest.any(), "Elements of the covariance that should be 0 are not.", "set only 0, 7 and 35")
+
+
+@exercise("find_yourself", gaps=2, praise="It finds itself, and then it delivers.")
+def find_yourself(answer: Script) -> Any:
+    """A script that calls global_localization, wanders until amcl is sure, and sends the goal once."""
+    x, y, yaw = LOST
+    with Drive(MORNING.format(x=x, y=y, yaw=yaw, settings=FINDS)) as drive:
+        lost: list[float] = []
+        sure: list[float] = []
+        goals: list[float] = []
+        now = drive.graph.now
+
+        def on_pose(message: Any) -> None:
+            spread = math.sqrt(max(message.pose.covariance[0], message.pose.covariance[7]))
+            if spread > 1.0:
+                lost.append(now().to_sec())
+            elif lost and spread < SURE_ENOUGH:
+                sure.append(now().to_sec())
+
+        judge = drive.graph.node("judge")
+        judge.subscriber("amcl_pose", PoseWithCovarianceStamped, on_pose)
+        judge.subscriber("move_base_simple/goal", PoseStamped, lambda _: goals.append(now().to_sec()))
+        begin = now().to_sec()
+        drive.start(answer)
+        while now().to_sec() < begin + 90.0 and not drive.results:
+            drive.run(1.0)
+        expect(bool(lost), "amcl never began everywhere.", "call the service global_localization")
+        expect(bool(sure), "amcl was not sure of the pose within 90 s.", "drive as wander.py does until it is")
+        expect(bool(goals), "There was no goal on move_base_simple/goal within 90 s.", "send it in on_pose")
+        expect(len(goals) == 1, f"There were {len(goals)} goals, not one.", "remember that the goal was sent")
+        expect(
+            goals[0] >= sure[0],
+            f"The goal was sent {sure[0] - goals[0]:.0f} s before amcl was sure of the pose.",
+            "both variances must be less than 0.2 squared",
+        )
+        x, y, _ = drive.robot.truth()
+        off = math.dist((x, y), CHILDS_ROOM)
+        expect(
+            bool(drive.results) and off < 0.3,
+            f"move_base did not finish its goal, {off:.1f} m from the robot.",
+            "after the goal was sent, publish no more commands: move_base drives",
+        )
+        return drive.view()

@@ -1,21 +1,26 @@
-"""The chapter amcl: its robot is found, lost and found as the text says."""
+"""The chapter amcl: robots are found as the text says."""
 
 from __future__ import annotations
+
+import re
 
 import pytest
 
 from .conftest import printed
 
 
-def test_amcl_finds_the_robot_and_so_does_the_filter_by_hand(cells, figures):
-    _, base, truth = printed(cells, "listener = TransformListener()").splitlines()
-    found, wanted = ([float(v) for v in line.partition(":")[2].split()] for line in (base, truth))
-    assert found == pytest.approx(wanted, abs=0.4)
-    assert float(figures[3].rpartition("mean ")[2].split()[0]) < 0.4
+def test_few_particles_settle_at_a_wrong_place(cells):
+    off = re.findall(r"([\d.]+) m off", printed(cells, "def last(number"))
+    assert float(off[0]) > 1.0
 
 
-def test_a_kidnapped_robot_stays_lost_until_somebody_helps(cells):
-    lost = [float(v) for v in printed(cells, "robot.place((-6.5").split()]
-    assert min(lost) > 2.0
-    helped = printed(cells, 'tools["2D Pose Estimate"]').splitlines()[-1].split()
-    assert max(map(float, helped)) < 0.5
+def test_amcl_corrects_where_the_odometry_began(cells):
+    x, y = re.findall(r"Translation: \[(\S+), (\S+),", printed(cells, "2D Pose Estimate"))[0]
+    assert (float(x), float(y)) == pytest.approx((6.3, -0.5), abs=0.6)
+
+
+def test_the_robot_that_found_itself_delivers(cells):
+    replay = next(cell for cell in cells if "%replay /move_base/NavfnROS/plan /particlecloud" in cell.source)
+    text = next(output.data["text/plain"] for output in replay.outputs if "data" in output)
+    x, y = re.findall(r"end \((\S+), (\S+),", text)[0]
+    assert (float(x), float(y)) == pytest.approx((1.2, -0.9), abs=0.3)

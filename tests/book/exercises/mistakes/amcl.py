@@ -32,14 +32,58 @@ message.pose.covariance[35] = 0.1 ** 2
 pub.publish(message)
 """
 
+COURIER = """
+import rospy
+from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, Twist
+from sensor_msgs.msg import LaserScan
+from std_srvs.srv import Empty
 
-def _but(old: str, new: str) -> Callable[[], Any]:
-    assert old in HERE
-    return lambda: Script("here.py", HERE.replace(old, new))
+turning, found = 0.0, False
 
 
-def _squares(weights: Any) -> Any:
-    return 1 / np.square(weights).sum()
+def on_pose(message):
+    global found
+    covariance = message.pose.covariance
+    if not found and max(covariance[0], covariance[7]) < 0.2**2:
+        found = True
+        cmd_vel.publish(Twist())
+        goals.publish(goal)
+
+
+def on_scan(scan):
+    global turning
+    if found:
+        return
+    left, right = scan.ranges[:120], scan.ranges[-120:]
+    if min(left[:35] + right[-35:]) > 0.5:
+        turning = 0.0
+    elif not turning:
+        turning = 0.8 if sum(left) > sum(right) else -0.8
+    command = Twist()
+    command.linear.x = 0.0 if turning else 0.2
+    command.angular.z = turning
+    cmd_vel.publish(command)
+
+
+rospy.init_node("courier")
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+goals = rospy.Publisher("move_base_simple/goal", PoseStamped, queue_size=1)
+goal = PoseStamped()
+goal.header.frame_id = "map"
+goal.pose.position.x, goal.pose.position.y = -2.2, -1.2
+goal.pose.orientation.w = 1.0
+rospy.wait_for_service("global_localization")
+rospy.ServiceProxy("global_localization", Empty)()
+rospy.sleep(1)  # until amcl has published a pose of its new particles
+rospy.Subscriber("amcl_pose", PoseWithCovarianceStamped, on_pose)
+rospy.Subscriber("scan", LaserScan, on_scan)
+rospy.spin()
+"""
+
+
+def _but(old: str, new: str, right: str = HERE) -> Callable[[], Any]:
+    assert old in right
+    return lambda: Script("answer.py", right.replace(old, new))
 
 
 def _drawn(weights: Any, u: float) -> Any:
@@ -57,7 +101,6 @@ def _deaf(weights: Any, u: float) -> Any:
 
 
 MISTAKES: dict[str, list[Callable[[], Any]]] = {
-    "effective": [lambda: _squares, lambda: len, lambda: lambda w: (w > 0).sum(), lambda: lambda _: "4"],
     "systematic": [
         lambda: _drawn,
         lambda: _uneven,
@@ -73,5 +116,10 @@ MISTAKES: dict[str, list[Callable[[], Any]]] = {
         _but("covariance[7] = 0.15 ** 2", "covariance[7] = 0.15"),
         _but("pub.publish(message)", ""),
         _but("covariance[35] = 0.1 ** 2", "covariance[35] = 0.1 ** 2; message.pose.covariance[14] = 1.0"),
+    ],
+    "find_yourself": [
+        _but('rospy.ServiceProxy("global_localization", Empty)()\n', "", COURIER),
+        _but("0.2**2", "2.0**2", COURIER),
+        _but("    if found:\n        return\n", "", COURIER),
     ],
 }
