@@ -76,7 +76,6 @@ def broken_rules(chapter: str) -> set[str]:
 TO_REWRITE: dict[str, set[str]] = {
     "global_planners": {"private API"},
     "gmapping": {"lines", "mentions"},
-    "move_base": {"private API"},
     "explore_lite": {"private API"},
 }
 
