@@ -73,11 +73,7 @@ def broken_rules(chapter: str) -> set[str]:
     return {rule for rule, is_broken in found.items() if is_broken}
 
 
-TO_REWRITE: dict[str, set[str]] = {
-    "global_planners": {"private API"},
-    "gmapping": {"lines", "mentions"},
-    "explore_lite": {"private API"},
-}
+TO_REWRITE: dict[str, set[str]] = {"global_planners": {"private API"}, "gmapping": {"lines", "mentions"}}
 
 
 @pytest.mark.parametrize("chapter", CHAPTERS)

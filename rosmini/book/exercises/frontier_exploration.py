@@ -88,12 +88,18 @@ AREA = [(-1.3, -1.3), (4.8, -1.3), (4.8, 3.3), (-1.3, 3.3)]
 
 
 class Flat(Drive):
-    """The flat of the chapter, with a mapper and `move_base`; `explorer` contains further tags of the launch file."""
+    """A flat with a mapper and `move_base`, for use in a ``with`` block like a `Trial`.
 
-    def __init__(self, explorer: str) -> None:
+    Args:
+        explorer: further tags of the launch file.
+        text: the world file; by default that of the flat in this chapter.
+
+    """
+
+    def __init__(self, explorer: str, text: str = WORLD) -> None:
         with TemporaryDirectory() as folder:
             world = Path(folder) / "flat.world"
-            world.write_text(WORLD, encoding="utf-8")
+            world.write_text(text, encoding="utf-8")
             super().__init__(MAPPING.format(world=world, explorer=explorer))
 
 

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.book.checks import Script
 
+from .file_system import wrong
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -49,9 +51,14 @@ def _cheapest(*, above: bool = False, metres: bool = False, dearest: bool = Fals
     return made
 
 
-def _parameters(**changes: Any) -> Callable[[], dict[str, Any]]:
-    right = {"gain_scale": 1.0, "potential_scale": 20.0, "min_frontier_size": 0.6, "progress_timeout": 15.0}
-    return lambda: {name: value for name, value in {**right, **changes}.items() if value is not None}
+CAUTIOUS = """
+<launch>
+  <include file="$(find explore_lite)/launch/explore.launch"/>
+  <param name="explore/potential_scale" value="20.0"/>
+  <param name="explore/min_frontier_size" value="0.6"/>
+  <param name="explore/progress_timeout" value="15.0"/>
+</launch>
+"""
 
 
 MISTAKES = {
@@ -70,13 +77,14 @@ MISTAKES = {
         _but(COUNTER, '"report"', '"reports"'),
     ],
     "cautious": [
-        _parameters(potential_scale=3.0),
-        _parameters(potential_scale=40.0),
-        _parameters(gain_scale=2.0),
-        _parameters(min_frontier_size=None),
-        _parameters(progress_timeout=30.0),
-        _parameters(min_frontier_size=0.75),
-        _parameters(potential_scale="20"),
-        _parameters(orientation_scale=1.0),
+        wrong(CAUTIOUS, "20.0", "3.0"),
+        wrong(CAUTIOUS, "20.0", "40.0"),
+        wrong(CAUTIOUS, "15.0", "30.0"),
+        wrong(CAUTIOUS, '"0.6"', '"0.75"'),
+        wrong(CAUTIOUS, '"explore/min_frontier_size"', '"min_frontier_size"'),
+        wrong(CAUTIOUS, "</launch>", '<param name="explore/gain_scale" value="2.0"/></launch>'),
+        wrong(CAUTIOUS, '  <include file="$(find explore_lite)/launch/explore.launch"/>\n'),
+        wrong(CAUTIOUS, "</launch>"),
+        lambda: {"potential_scale": 20.0},
     ],
 }
