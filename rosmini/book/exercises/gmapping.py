@@ -7,32 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.book.checks import Script, exercise, expect
+from rosmini.book.checks import Script, exercise, expect, expect_type
+from rosmini.book.drives import Launched
 from rosmini.book.trials import Trial
 from rosmini.core.graph import Graph
 from rosmini.msgs.nav_msgs.msg import OccupancyGrid
 from rosmini.ros.launch import roslaunch
 from rosmini.ros.scripts import rosrun
-
-
-@exercise("log_likelihood", praise="A single passer-by does not eliminate a particle.")
-def log_likelihood(answer: Any) -> None:
-    """The sum for beams that end on a wall, near one, and far from any."""
-    for distances, why in (
-        ([0.0, 0.05, 0.1], "All three beams end near a point."),
-        ([0.11, 0.4], "No beam ends near a point."),
-        ([math.inf, 0.02], "One beam has no point at all."),
-        ([0.03] * 40 + [0.2] * 3, "Forty beams end near a point, and three do not."),
-    ):
-        given = np.array(distances)
-        found = answer(given.copy())
-        near = given[given <= 0.1]
-        wanted = -(float(np.sum(near**2)) + 0.5 * (len(given) - len(near))) / 0.075
-        expect(
-            isinstance(found, (int, float, np.floating)) and math.isclose(found, wanted, rel_tol=1e-6, abs_tol=1e-9),
-            f"{why} The sum is {wanted:.2f}, but you return {found!r}.",
-            "near beams add -d**2 / 0.075, all others -0.5 / 0.075",
-        )
 
 
 @exercise("data_of", praise="RViz can draw this map.")
@@ -60,28 +41,54 @@ def data_of(answer: Any) -> None:
             )
 
 
-@exercise("survivors", praise="No heavy particle is lost by chance.")
-def survivors(answer: Any) -> None:
-    """Systematic resampling, or none if Neff is large enough."""
-    uneven = [0.02, 0.55, 0.03, 0.3, 0.1]
-    cases = (
-        (uneven, 0.01, [0, 1, 1, 3, 3]),
-        (uneven, 0.15, [1, 1, 1, 3, 4]),
-        ([0.25] * 4, 0.2, [0, 1, 2, 3]),
-        ([0.4, 0.3, 0.2, 0.1], 0.1, [0, 1, 2, 3]),
-        ([0.0, 0.0, 1.0], 0.3, [2, 2, 2]),
-    )
-    for weights, start, wanted in cases:
-        found = answer(list(weights), start)
-        kept = wanted == list(range(len(weights)))
-        expect(
-            list(found) == wanted,
-            f"With the weights {weights} and start {start}, {wanted} survive, but you return {found!r}.",
-            "Neff is large enough here, so all particles survive"
-            if kept
-            else "put marks at start, start + 1/N, ..., and find the particle at each mark",
-        )
+MAPPED_S = 40.0
+"""Duration of the drive in exercise mapper [s]."""
+WANDER = Script(
+    "wander.py",
+    """
+import rospy
+from geometry_msgs.msg import Twist
+from sensor_msgs.msg import LaserScan
 
+def on_scan(scan):
+    command = Twist()
+    if min(scan.ranges[:30] + scan.ranges[-30:]) > 0.4:
+        command.linear.x = 0.2
+    else:
+        command.angular.z = 0.7
+    cmd_vel.publish(command)
+
+rospy.init_node("wander")
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+rospy.Subscriber("scan", LaserScan, on_scan)
+rospy.spin()
+""",
+)
+
+
+@exercise("mapper", praise="The robot has a map of the whole room.")
+def mapper(answer: Any) -> Any:
+    """A launch file with which gmapping maps a room."""
+    expect_type(answer, str, "mapper is", "a text")
+    with Launched(answer, "/cart") as trial:
+        maps = _Maps(trial.graph)
+        trial.start(WANDER)
+        trial.run(MAPPED_S)
+        expect(
+            maps.count > 0,
+            f"There was no message on map within {MAPPED_S:.0f} s.",
+            "which frames does the robot have? rqt_tf_tree draws them",
+        )
+        expect(
+            maps.known > ROOM_CELLS,
+            f"After {MAPPED_S:.0f} s the map has {maps.known} known cells; the room has {ROOM_CELLS} and more.",
+            "how far does gmapping use the beams? The laser reaches 3.5 m",
+        )
+        return trial.view()
+
+
+ROOM_CELLS = 3000
+"""Least number of known cells in the map of the room."""
 
 DULL, NEWS = 3, 40
 """A map is complete when this number of maps in a row each has fewer new cells than this."""

@@ -4,27 +4,27 @@ from __future__ import annotations
 
 import re
 
+import pytest
+
 from .conftest import printed
 
 
-def test_the_served_map_has_whole_blocks(cells):
-    assert "192 x 192 cells" in printed(cells, "map_saver -f room")
+def test_the_saved_map_has_whole_blocks(cells):
+    assert "384 X 384" in printed(cells, "map_saver -f house")
 
 
-def test_the_hill_of_scores_has_its_summit_where_the_text_says(cells):
-    rows = [line.split() for line in printed(cells, "def score").splitlines()]
-    steps, marks = rows[0][1:], {row[1]: [int(mark) for mark in row[2:]] for row in rows[1:]}
-    assert marks["0.0"][steps.index("0.6")] == max(max(row) for row in marks.values())
-    assert "[0.6 " in printed(cells, "def climb")
+def test_a_climb_from_odometry_ends_higher_than_one_from_a_wrong_heading(cells):
+    good, bad = (int(score) for score in re.findall(r"score (\d+)", printed(cells, "starts = {")))
+    assert good > bad
 
 
-def test_gmapping_is_better_than_odometry_alone(cells):
-    alone, better = (float(n) for n in re.findall(r"(\d\.\d) m on average", printed(cells, "def off")))
-    assert alone > 3 * better
+def test_matching_is_better_than_odometry_alone(cells):
+    alone, matched = (float(off) for off in re.findall(r"([\d.]+) m off", printed(cells, "def off(path)")))
+    assert alone > 2 * matched
 
 
-def test_fewer_particles_and_resamplings(cells):
-    lines = [line.split() for line in printed(cells, "for count in").splitlines()[1:]]
-    assert [line[0] for line in lines] == ["1", "5", "30"]
-    assert lines[0][3] == "0", "of one particle there is nothing to choose"
-    assert int(lines[2][3]) >= 2
+def test_the_robot_delivers_on_its_own_map(cells):
+    replay = next(cell for cell in cells if "localization:=amcl" in cell.source)
+    text = next(output.data["text/plain"] for output in replay.outputs if "data" in output)
+    x, y = re.findall(r"end \((\S+), (\S+),", text)[0]
+    assert (float(x), float(y)) == pytest.approx((1.7, -1.5), abs=0.3)

@@ -45,14 +45,30 @@ rospy.Subscriber("scan", LaserScan, on_scan)
 rospy.spin()
 """
 
+MAPPER = """
+<launch>
+  <node pkg="rosmini_sim" type="simulator" name="cart"
+        args="_world:=room"/>
+  <include
+   file="$(find turtlebot3_bringup)/launch/turtlebot3_remote.launch">
+    <arg name="model" value="burger"/>
+  </include>
+  <node pkg="gmapping" type="slam_gmapping" name="gmapping">
+    <rosparam>
+      base_frame: base_footprint
+      linearUpdate: 0.3
+      angularUpdate: 0.3
+      maxUrange: 3.0
+      particles: 5
+    </rosparam>
+  </node>
+</launch>
+"""
+
 
 def _but(old: str, new: str) -> Callable[[], Script]:
     assert old in SURVEYOR, old
     return lambda: Script("surveyor.py", SURVEYOR.replace(old, new))
-
-
-def _likelihood(*, limit: float = 0.1, lost: float = -0.5, over: float = 0.075) -> Callable[[], Any]:
-    return lambda: lambda d: np.where(d <= limit, -(d**2), lost).sum() / over
 
 
 def _data(hits: Any, visits: Any, occ_thresh: float) -> Any:
@@ -61,23 +77,7 @@ def _data(hits: Any, visits: Any, occ_thresh: float) -> Any:
     return cells
 
 
-def _survivors(weights: Any, start: float, *, share: float = 0.5, side: Any = "right", step: float = 1.0) -> Any:
-    weights = np.asarray(weights)
-    count = len(weights)
-    if 1 / (weights**2).sum() >= share * count:
-        return list(range(count))
-    marks = start + step * np.arange(count) / count
-    return np.searchsorted(weights.cumsum(), marks, side=side).tolist()
-
-
 MISTAKES: dict[str, list[Callable[[], Any]]] = {
-    "log_likelihood": [
-        _likelihood(limit=0.05),
-        _likelihood(lost=0.0),
-        _likelihood(over=0.05),
-        lambda: lambda d: (-(d**2)).sum() / 0.075,
-        lambda: lambda d: np.where(d <= 0.1, -d, -0.5).sum() / 0.075,
-    ],
     "data_of": [
         lambda: _data,
         lambda: lambda h, v, t: _data(h, v, t)[::-1].ravel().tolist(),
@@ -86,13 +86,11 @@ MISTAKES: dict[str, list[Callable[[], Any]]] = {
         lambda: lambda h, v, t: _data(h, v, 0.25).ravel().tolist(),
         lambda: lambda h, v, t: _data(h, v, t - 1e-9).ravel().tolist(),
     ],
-    "survivors": [
-        lambda: lambda w, s: _survivors(w, s, share=2.0),
-        lambda: lambda w, s: _survivors(w, s, share=0.0),
-        lambda: lambda w, s: _survivors(w, 0.0),
-        lambda: lambda w, s: _survivors(w, s, step=0.5),
-        lambda: lambda w, s: sorted(set(_survivors(w, s))),
-        lambda: lambda w, s: [int(np.argmax(w))] * len(w),
+    "mapper": [
+        lambda: MAPPER.replace("base_footprint", "base_foot"),
+        lambda: MAPPER.replace("maxUrange: 3.0", "maxUrange: 0.3"),
+        lambda: MAPPER.replace("</launch>", ""),
+        lambda: None,
     ],
     "map_is_done": [
         _but('if state["dull"] < 3:\n        if min', "if True:\n        if min"),
