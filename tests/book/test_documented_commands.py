@@ -136,6 +136,7 @@ GRAPHS: dict[str, tuple[str, ...]] = {
     "turtlebot3": (ROBOT,),
     "family_and_description": (FLAG,),
     "costmaps": (STACK,),
+    "global_planners": (STACK,),
 }
 """What runs and which files there are, by page, when the commands of a box are typed."""
 

@@ -3,25 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from functools import cache
 from heapq import heappop, heappush
-from itertools import pairwise
 from typing import Any
 
-import numpy as np
-
 from rosmini.book.checks import Script, exercise, expect, expect_number, expect_type
-from rosmini.book.trials import TurtleTrial
-from rosmini.core.maps import load_map
-from rosmini.core.packages import assets_dir
-from rosmini.msgs.geometry_msgs.msg import PoseStamped
-from rosmini.msgs.nav_msgs.srv import GetPlan
-from rosmini.msgs.std_msgs.msg import Float64
-from rosmini.navigation.costmap_2d.costmap import Costmap2D
-from rosmini.navigation.costmap_2d.inflation import cell_distance, cost_table, inflate
-from rosmini.navigation.costmap_2d.layer import Window
-from rosmini.navigation.global_planner import GlobalDijkstra
+from rosmini.book.drives import COURIER, Drive, courier
+from rosmini.core.time import Time
+from rosmini.msgs.geometry_msgs.msg import PoseArray, PoseStamped
+from rosmini.msgs.nav_msgs.msg import Path as PlannedPath
+from rosmini.navigation.nav_core import pose_stamped
 
 Cell = tuple[int, int]
 
@@ -107,46 +97,43 @@ def trap(answer: Any) -> None:
 
 # ---- tuned: tune it ----
 
-BEGIN, SOFA = (-2.98, 1.02), (-4.48, -4.48)
-ROOM = (140, 130)
-"""Rows and columns of the part of the house used for planning."""
+HALL, SOFA = (-2.98, 1.02, 0.0), (-4.48, -4.48, 0.0)
 NEUTRAL = 100
 HIGHEST, AVERAGE = 135, 45.0
-INSCRIBED, RADIUS, SCALING = 0.0511, 0.6, 5.0
-"""Values for a Burger's costmap in `turtlebot3_navigation`."""
-
-
-@cache
-def house() -> Costmap2D:
-    """Return the global costmap of the house, without laser data."""
-    found = load_map(assets_dir() / "ros/rosmini_sim/maps/house.yaml")
-    costs = np.where(found.occupied, 254, np.where(found.free, 0, 255)).astype(np.uint8)
-    made = Costmap2D.of(costs, found.resolution, found.origin[:2])
-    radius = cell_distance(RADIUS, found.resolution)
-    table = cost_table(radius, found.resolution, INSCRIBED, SCALING)
-    inflate(made.costs, Window(0, 0, made.width, made.height), radius, table)
-    return made
+PLANNER = "global_planner/GlobalPlanner"
 
 
 @exercise("tuned", praise="The costs differ wherever the planner has a choice.")
-def tuned(answer: Any) -> None:
-    """A factor that keeps the plan away from the sofa and below the highest costs."""
-    factor = expect_number(answer, "factor")
-    expect(0.01 <= factor <= 5.0, f"cost_factor is {factor:g}.", "it must be from 0.01 to 5.0")
-    grid = house()
-    plan = GlobalDijkstra(
-        grid.costs[: ROOM[0], : ROOM[1]],
-        grid.world_to_map_clamped(*BEGIN),
-        grid.world_to_map_clamped(*SOFA),
-        neutral_cost=NEUTRAL,
-        cost_factor=factor,
-    )
-    columns, rows = np.floor(plan.path() + 0.5).astype(int).T
-    costs = grid.costs[rows, columns]
-    ceiling = (252 - NEUTRAL) / factor
-    said = f"The plan crosses cells with costs of {costs.mean():.0f} on average and {costs.max()} at most"
-    expect(costs.mean() <= AVERAGE, f"{said}: it keeps too close to obstacles.", _advice(ceiling))
-    expect(costs.max() <= HIGHEST, f"{said}: at one point it is too close to an obstacle.", _advice(ceiling))
+def tuned(answer: Any) -> Any:
+    """Settings that keep the plan away from the sofa and below the highest costs, and a drive."""
+    drive, settings = courier(answer, "settings", HALL)
+    with drive:
+        expect(
+            settings.get("base_global_planner") == PLANNER and isinstance(settings.get("GlobalPlanner"), dict),
+            f"The planner is not {PLANNER}, or has no settings.",
+            "change only cost_factor",
+        )
+        own = settings["GlobalPlanner"]
+        expect(own.get("neutral_cost") == NEUTRAL, "neutral_cost has changed.", f"it must stay {NEUTRAL}")
+        factor = expect_number(own.get("cost_factor"), "cost_factor")
+        expect(0.01 <= factor <= 5.0, f"cost_factor is {factor:g}.", "it must be from 0.01 to 5.0")
+        grid = drive.graph.nodes["/move_base"].program.global_costmap.grid
+        costs: list[int] = []
+
+        def look(plan: Any) -> None:
+            """Look up the costs of the first plan while the costmap is still the one that it was made for."""
+            points = [] if costs else [each.pose.position for each in plan.poses]
+            costs.extend(grid.cost(*grid.world_to_map(point.x, point.y)) for point in points)
+
+        drive.graph.node("watch").subscriber("/move_base/GlobalPlanner/plan", PlannedPath, look)
+        off = drive.go(SOFA, 60.0)
+        average = sum(costs) / len(costs)
+        said = f"The plan crosses cells with costs of {average:.0f} on average and {max(costs)} at most"
+        ceiling = (252 - NEUTRAL) / factor
+        expect(average <= AVERAGE, f"{said}: it keeps too close to obstacles.", _advice(ceiling))
+        expect(max(costs) <= HIGHEST, f"{said}: at one point it is too close to an obstacle.", _advice(ceiling))
+        expect(off < 0.25, f"After at most 60 s the robot is {off:.1f} m from its goal.")
+        return drive.view()
 
 
 def _advice(ceiling: float) -> str:
@@ -155,82 +142,52 @@ def _advice(ceiling: float) -> str:
     return f"above a cost of {ceiling:.0f} all cells cost the same: give the costmap less weight"
 
 
-# ---- far: how far is it ----
+# ---- first_delivery: the nearest recipient ----
 
-QUESTIONS: tuple[tuple[Cell, list[tuple[float, float]]], ...] = (
-    ((3, 4), [(0, 0), (0, 1), (0.5, 1), (3, 1), (3, 4)]),
-    ((9, 9), []),
-    ((-2, 0), [(0, 0), (-0.3, 0.4), (-2, 0.4), (-2, 0)]),
+Point = tuple[float, float]
+START = (-3.0, 1.0, 0.0)
+BED = (6.02, -3.48)
+DELIVERIES: tuple[tuple[tuple[Point, ...], Point], ...] = (
+    (((-2.6, -1.0), (0.3, 0.8), (1.2, -0.9)), (0.3, 0.8)),
+    ((BED, (-5.0, 0.5), (0.3, 0.8)), (-5.0, 0.5)),
 )
-"""Goals, and the plans to them."""
+"""Recipients, and the one with the shortest plan: one is nearer, but behind a wall, and one lies on a bed."""
 
 
-@exercise("far", praise="Your node reports the distance of each delivery before the robot starts.")
-def far(answer: Script) -> None:
-    """A node that requests plans and publishes their lengths."""
-    asked: list[Any] = []
-    told: list[Any] = []
-    with TurtleTrial(None) as trial:
-        mover = trial.graph.node("move_base")
-        mover.service("~make_plan", GetPlan, _server(asked))
-        office = trial.graph.node("office")
-        office.subscriber("distance", Float64, told.append)
-        question = office.publisher("question", PoseStamped, queue_size=5)
-        trial.start(answer)
-        trial.run(1.0)
-        for place, points in QUESTIONS:
-            asked.clear()
-            told.clear()
-            question.publish(_pose(place))
-            trial.run(0.5)
-            where = f"For the goal {place}"
-            expect(asked, f"{where} you did not call move_base/make_plan.", "make_plan(start, goal, tolerance)")
-            request = asked[-1]
+@exercise("first_delivery", praise="It knows the way before it says near.")
+def first_delivery(answer: Script) -> Any:
+    """A node that sends the robot to the recipient with the shortest plan."""
+    x, y, yaw = START
+    for places, wanted in DELIVERIES:
+        with Drive(COURIER.format(x=x, y=y, yaw=yaw, settings="{}")) as drive:
+            goals: list[Any] = []
+            desk = drive.graph.node("office")
+            desk.subscriber("/move_base_simple/goal", PoseStamped, goals.append)
+            recipients = desk.publisher("recipients", PoseArray, queue_size=1)
+            drive.start(answer)
+            drive.run(1.0)
+            recipients.publish(_recipients(places))
+            drive.run(1.0)
+            where = f"For the recipients {', '.join(map(str, places))}"
+            expect(len(goals) == 1, f"{where} you sent {len(goals)} goals.", "publish one goal for each message")
+            position = goals[0].pose.position
             expect(
-                not request.start.header.frame_id,
-                f"{where} you requested a plan from a fixed start.",
-                "an empty PoseStamped() means the robot's position",
+                math.dist((position.x, position.y), wanted) < 0.01,
+                f"{where} you sent the robot to ({position.x:g}, {position.y:g}), and {wanted} has the shortest plan.",
+                "add up the distances from each pose of a plan to the next; an empty plan is no plan",
             )
             expect(
-                (request.goal.pose.position.x, request.goal.pose.position.y) == place
-                and request.goal.header.frame_id == "map",
-                f"{where} you requested a different goal.",
-                "pass on the pose that you received",
+                goals[0].header.frame_id == "map", f"{where} the goal has no frame.", "take the header of the message"
             )
-            expect(
-                math.isclose(request.tolerance, 0.5, abs_tol=1e-6),
-                f"{where} the tolerance was {request.tolerance:g} m, not 0.5.",
-            )
-            expect(
-                len(told) == 1,
-                f"{where} there were {len(told)} messages on distance, not 1.",
-                "publish once for each goal",
-            )
-            wanted = sum(math.dist(a, b) for a, b in pairwise(points)) if points else -1.0
-            expect(
-                abs(told[0].data - wanted) < 0.01,
-                f"{where} you published {told[0].data:.2f}, not {wanted:.2f}."
-                + ("" if points else " There is no plan to it."),
-                "add up the distances from each pose to the next; publish -1 for an empty plan",
-            )
+            drive.finish(30.0)
+            off = math.dist(drive.robot.truth()[:2], wanted)
+            expect(off < 0.25, f"{where} the robot is {off:.1f} m from its goal after 30 s.")
+            view = drive.view()
+    return view
 
 
-def _server(asked: list[Any]) -> Callable[[Any], Any]:
-    plans = dict(QUESTIONS)
-
-    def handle(request: Any) -> Any:
-        asked.append(request)
-        position = request.goal.pose.position
-        response = GetPlan._response_class()
-        response.plan.poses = [_pose(each) for each in plans.get((int(position.x), int(position.y)), [])]
-        return response
-
-    return handle
-
-
-def _pose(point: tuple[float, float]) -> Any:
-    made = PoseStamped()
-    made.header.frame_id = "map"
-    made.pose.position.x, made.pose.position.y = map(float, point)
-    made.pose.orientation.w = 1.0
-    return made
+def _recipients(places: tuple[Point, ...]) -> Any:
+    message = PoseArray()
+    message.header.frame_id = "map"
+    message.poses = [pose_stamped("map", Time(), (x, y, 0.0)).pose for x, y in places]
+    return message

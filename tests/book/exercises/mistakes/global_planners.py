@@ -7,38 +7,51 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.book.checks import Script
 
+from .file_system import wrong
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-FAR = """
-from math import hypot
+TUNED = """
+base_global_planner: global_planner/GlobalPlanner
+GlobalPlanner:
+  neutral_cost: 100
+  cost_factor: 0.8
+"""
+
+NEAREST = """
+from math import hypot, inf
 
 import rospy
-from geometry_msgs.msg import PoseStamped
+from geometry_msgs.msg import PoseArray, PoseStamped
 from nav_msgs.srv import GetPlan
-from std_msgs.msg import Float64
 
-
-def on_question(goal):
-    plan = make_plan(PoseStamped(), goal, 0.5).plan.poses
+def length(goal):
+    plan = make_plan(PoseStamped(), goal, 0.0).plan.poses
     points = [each.pose.position for each in plan]
+    if not points:
+        return inf
     pairs = zip(points, points[1:])
-    length = sum(hypot(b.x - a.x, b.y - a.y) for a, b in pairs)
-    distance.publish(length if plan else -1.0)
+    return sum(hypot(b.x - a.x, b.y - a.y) for a, b in pairs)
 
+def on_recipients(recipients):
+    header = recipients.header
+    stops = [PoseStamped(header, pose) for pose in recipients.poses]
+    goals.publish(min(stops, key=length))
 
-rospy.init_node("far")
+rospy.init_node("nearest")
 rospy.wait_for_service("move_base/make_plan")
 make_plan = rospy.ServiceProxy("move_base/make_plan", GetPlan)
-distance = rospy.Publisher("distance", Float64, queue_size=1)
-rospy.Subscriber("question", PoseStamped, on_question)
+topic = "move_base_simple/goal"
+goals = rospy.Publisher(topic, PoseStamped, queue_size=1)
+rospy.Subscriber("recipients", PoseArray, on_recipients)
 rospy.spin()
 """
 
 
 def _but(old: str, new: str) -> Callable[[], Script]:
-    assert old in FAR, old
-    return lambda: Script("answer.py", FAR.replace(old, new))
+    assert old in NEAREST, old
+    return lambda: Script("nearest.py", NEAREST.replace(old, new))
 
 
 def _guess(count: Callable[[int, int], float], *, priced: bool = True) -> Callable[[], Any]:
@@ -69,16 +82,21 @@ MISTAKES = {
         lambda: "",
         lambda: ["..........", "S::::::::G", ".........."],
     ],
-    "tuned": [lambda: 0.01, lambda: 0.3, lambda: 2.0, lambda: 3.0, lambda: 5.0, lambda: 0, lambda: 66, lambda: "0.55"],
-    "far": [
-        _but("0.5)", "0.0)"),
-        _but("make_plan(PoseStamped(),", "make_plan(goal,"),
-        _but("goal, 0.5", "PoseStamped(), 0.5"),
-        _but("length if plan else -1.0", "length"),
-        _but("length if plan else -1.0", "len(plan) if plan else -1.0"),
-        _but("hypot(b.x - a.x, b.y - a.y)", "abs(b.x - a.x) + abs(b.y - a.y)"),
-        _but("    distance.publish(length if plan else -1.0)\n", ""),
-        _but("    distance.publish(length if plan else -1.0)", "    if plan:\n        distance.publish(length)"),
-        _but("zip(points, points[1:])", "[(points[0], points[-1])] if points else []"),
+    "tuned": [
+        *(wrong(TUNED, "0.8", factor) for factor in ("0.01", "3.0", "5.0", "66", "much")),
+        wrong(TUNED, "100", "66"),
+        wrong(TUNED, "global_planner/GlobalPlanner", "navfn/NavfnROS"),
+        lambda: 0.8,
+    ],
+    "first_delivery": [
+        _but("        return inf", "        return 0"),
+        _but("min(stops", "max(stops"),
+        _but("min(stops, key=length)", "stops[0]"),
+        _but(
+            "sum(hypot(b.x - a.x, b.y - a.y) for a, b in pairs)",
+            "hypot(points[-1].x - points[0].x, points[-1].y - points[0].y)",
+        ),
+        _but("PoseStamped(header, pose)", "PoseStamped(pose=pose)"),
+        _but("    goals.publish(min(stops, key=length))", "    pass"),
     ],
 }
