@@ -55,6 +55,12 @@ def go_there(script: Any) -> Any:
     drive, _ = courier("{}", "settings", HALL, before=script)
     with drive:
         drive.finish(30.0)
+        goal = drive.graph.nodes["/move_base"].program.goal
+        expect(
+            goal is None or goal.header.frame_id == "map",
+            f"move_base cannot plan to a goal in the frame {goal and goal.header.frame_id!r}.",
+            "set goal.header.frame_id to the frame of the map",
+        )
         expect(
             bool(drive.results),
             "move_base received no goal, or is not finished with it after 30 s. Your node starts before move_base.",
