@@ -155,7 +155,7 @@ def cost_there(answer: Script) -> None:
             expect(
                 answers == [wanted],
                 f"The answer for ({x:.1f}, {y:.1f}), {where}, was {answers}, not [{wanted}].",
-                "subtract the origin, divide by the resolution, and round down; the row counts first",
+                "subtract the origin, divide by the resolution, and round down with math.floor: int() rounds towards 0",
             )
 
 
