@@ -87,6 +87,7 @@ def test_the_wheel_contains_the_assets_and_stubs_but_no_tests(wheel):
     assert {name for name in names if name.count("/") == 2 and name.startswith("rosmini/book/")} == {
         "rosmini/book/__init__.py",
         "rosmini/book/checks.py",
+        "rosmini/book/drives.py",
         "rosmini/book/trials.py",
     }
 

@@ -225,6 +225,7 @@ class Recording:
             topics=None: of the other messages, only these topics; None: all
             frame=None: the frame they are drawn in; None: map, odom or world, whichever exists first
             robot=None: not needed here, since the recording knows its robot
+            opens_at_end=False: show the end at first, not the start
         """
         return show("replay", self, **options)
 

@@ -167,6 +167,8 @@ SKIPPED = {
     "rosrun joint_state_publisher_gui joint_state_publisher_gui": ROBOTS_OWN,
     "python3 errand.py": READERS_OWN,
     "python3 patrol.py": READERS_OWN,
+    "roslaunch patrol_robot patrol.launch": READERS_OWN,
+    "rostest patrol_robot patrol.test": READERS_OWN,
     "roslaunch twist_mux twist_mux.launch": ROBOTS_OWN,
     "rosrun joy joy_node": ROBOTS_OWN,
     "rosrun teleop_twist_joy teleop_node": ROBOTS_OWN,
