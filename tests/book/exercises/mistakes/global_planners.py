@@ -37,7 +37,9 @@ def length(goal):
 def on_recipients(recipients):
     header = recipients.header
     stops = [PoseStamped(header, pose) for pose in recipients.poses]
-    goals.publish(min(stops, key=length))
+    nearest = min(stops, key=length)
+    if length(nearest) < inf:
+        goals.publish(nearest)
 
 rospy.init_node("nearest")
 rospy.wait_for_service("move_base/make_plan")
@@ -97,6 +99,7 @@ MISTAKES = {
             "hypot(points[-1].x - points[0].x, points[-1].y - points[0].y)",
         ),
         _but("PoseStamped(header, pose)", "PoseStamped(pose=pose)"),
-        _but("    goals.publish(min(stops, key=length))", "    pass"),
+        _but("        goals.publish(nearest)", "        pass"),
+        _but("    if length(nearest) < inf:", "    if stops:"),
     ],
 }
