@@ -191,11 +191,6 @@ def cells_image(figure: Figure, axes: Axes, cells: Cells, scheme: str) -> str:
     )  # fmt: skip
 
 
-def cells_element(address: str, **where: str | float) -> str:
-    """Return a GIF of cells as an SVG element, where cells stay rectangles, with a position and other attributes."""
-    return element("image", href=address, **where, preserveAspectRatio="none", style="image-rendering:pixelated")
-
-
 def draw_frame(axes: Axes, cells: Cells, scale: float) -> None:
     """Draw the edge of a grid and two short axes at its origin: x red, y green, as in RViz."""
     corners = cells.corners()

@@ -21,7 +21,6 @@ from numpy.typing import NDArray
 
 from rosmini.core import files, images
 from rosmini.core.errors import nearest, shown
-from rosmini.core.graph.show import show
 
 from .grid_map import FREE, OCCUPIED, UNKNOWN, GridMap, MapDataError, MapMetadataError, MapMissing
 
@@ -104,10 +103,6 @@ class MapFile:
         if found is None or not found.size:
             raise MapDataError(f"{place}: the image {image} has no pixels")
         return found
-
-    def show(self, **options: Any) -> Any:
-        """Show the image and the resulting map for several thresholds: see `rosmini.viz.stepped_pictures.map_steps`."""
-        return show("map_file", self, **options)
 
     def load(self, warn: Callable[[str], object] = warnings.warn) -> GridMap:
         """Load the map. Raises `MapError` as `load_map` does; `warn` is called for a map that is probably a mistake."""

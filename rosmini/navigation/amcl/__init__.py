@@ -8,7 +8,7 @@ from the node.
 from __future__ import annotations
 
 from .field import LikelihoodField
-from .filter import ParticleFilter, show_steps
+from .filter import ParticleFilter
 from .motion import MODELS, sample_motion_model
 
-__all__ = ["MODELS", "LikelihoodField", "ParticleFilter", "sample_motion_model", "show_steps"]
+__all__ = ["MODELS", "LikelihoodField", "ParticleFilter", "sample_motion_model"]

@@ -11,9 +11,8 @@ around, so that a robot that faces -x has two means; here it has one.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,7 +21,6 @@ from rosmini.core.errors import RosminiError
 from rosmini.core.geometry.angles import normalize_angle
 from rosmini.core.geometry.poses import Pose
 from rosmini.core.geometry.products import eigen, matrix_product, scalar_product
-from rosmini.core.graph.show import show
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -271,11 +269,3 @@ def cluster_of(particles: Floats, weights: Floats) -> Cluster:
     covariance[1, 1] = scalar_product(shares, aside * aside)
     covariance[2, 2] = -2 * math.log(max(math.hypot(cos, sin), 1e-300))
     return Cluster(weight, (x, y, math.atan2(sin, cos)), covariance, len(particles))
-
-
-def show_steps(grid: Any, steps: Sequence[tuple[str, ArrayLike, ArrayLike | None, Any]], **options: Any) -> Any:
-    """Return a picture of a filter's steps on a map.
-
-    A step is a name, particles (n, 3), weights or None, and the true pose or None.
-    """
-    return show("filter_steps", grid, steps=steps, **options)

@@ -8,8 +8,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.core.graph.show import show
-
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
@@ -66,19 +64,6 @@ class Samples:
         found = {name: int((self.rejected_by == i).sum()) for i, name in enumerate(self.critics)}
         return {name: count for name, count in {**found, "generator": self.refused}.items() if count}
 
-    def explain(self, number: int) -> dict[str, float | None]:
-        """Return a trajectory's scaled score from each critic whose weight is not 0, and the `total`.
-
-        The score of a critic that rejects the trajectory is None, and so is the total if any critic does.
-        """
-        row: dict[str, float | None] = {
-            name: None if self.raw[number, i] < 0 else float(self.raw[number, i] * self.scales[i])
-            for i, name in enumerate(self.critics)
-            if self.scales[i] != 0
-        }
-        row["total"] = float(self.totals[number]) if self.rejected_by[number] < 0 else None
-        return row
-
     def reason(self, number: int) -> str:
         """Return the reason why a trajectory was rejected; empty if it was not."""
         critic = int(self.rejected_by[number])
@@ -88,45 +73,6 @@ class Samples:
         place = f" at point {at + 1} of {int(self.lengths[number])}" if at >= 0 else ""
         words = REASONS.get((self.critics[critic], int(self.raw[number, critic])), "rejected")
         return f"{self.critics[critic]}: {words}{place}"
-
-    def table(self, count: int = 8) -> str:
-        """Return a table of the `count` cheapest trajectories and the first trajectory that each critic rejected.
-
-        It shows the scaled score of each critic, without columns that are all 0, and below the reasons for rejection.
-        """
-        accepted = np.flatnonzero(self.accepted)
-        cheapest = accepted[np.argsort(self.totals[accepted].round(6), kind="stable")][:count]
-        rejected = [np.flatnonzero(self.rejected_by == critic)[:1] for critic in range(len(self.critics))]
-        used = [name for name, scale in zip(self.critics, self.scales, strict=True) if scale]
-        rows, reasons = [["number", "x", "y", "theta", *used, "total"]], []
-        for number in (int(n) for n in np.concatenate([cheapest, *rejected])):
-            row = self.explain(number)
-            costs = ["-" if row[name] is None else _shown(row[name]) for name in [*used, "total"]]
-            rows.append([str(number), *map(_shown, self.commands[number]), *costs])
-            if row["total"] is None:
-                reasons.append(f"{number}: {self.reason(number)}")
-        columns = [column for column in zip(*rows, strict=True) if {*column[1:]} != {"0.00"}]
-        widths = [max(map(len, column)) for column in columns]
-        lines = ("  ".join(map(str.rjust, row, widths)) for row in zip(*columns, strict=True))
-        return "\n".join([*lines, *reasons])
-
-    def nearest(self, x: float, y: float, theta: float) -> int:
-        """Return the index of the sample whose velocity is closest to this one.
-
-        Raises `IndexError` if there are no samples.
-        """
-        if not len(self):
-            raise IndexError("no trajectory was sampled")
-        return int(np.argmin(np.abs(self.velocities - (x, y, theta)).sum(axis=1)))
-
-    def show(self, **options: Any) -> Any:
-        """Return a picture of the trajectories, in steps: see `rosmini.viz.stepped_pictures.trajectory_steps`."""
-        return show("trajectories", self, **options)
-
-
-def _shown(value: float | None) -> str:
-    """Return a value with two decimals; a small offset avoids ties, which machines may round differently."""
-    return f"{(value or 0.0) + 3.7e-7:.2f}".replace("-0.00", "0.00")
 
 
 REASONS: dict[tuple[str, int], str] = {

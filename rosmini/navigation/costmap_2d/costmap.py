@@ -179,20 +179,6 @@ class Costmap2D:
 
         return show("costmap", self, **options)
 
-    def show_inflation(self, **options: Any) -> Any:
-        """Draw the obstacles and their inflation, with sliders for its three parameters.
-
-        Options and their defaults:
-            inscribed_radius=0.105: the robot's inscribed radius [m]
-            inflation_radius=0.55: distance up to which obstacles add costs [m]
-            cost_scaling_factor=10.0: how fast the costs fall with distance [1/m]
-            window=None: show only these cells: first column, first row, and the column and row after the last
-            title=None: a caption, also shown at the start of the text form
-        """
-        from rosmini.core.graph.show import show
-
-        return show("inflation", self, **options)
-
 
 def outline_spans(cells: list[Cell]) -> dict[int, Cell]:
     """Return the lowest and highest row of a polygon's outline, keyed by column; `cells` (mx, my) hold the vertices.

@@ -26,7 +26,6 @@ from rosmini.navigation.nav_core.poses import planar_pose, pose_stamped
 
 from . import footprint as outlines
 from .costmap import FREE_SPACE, INSCRIBED_INFLATED_OBSTACLE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D, fill
-from .inflation_layer import InflationLayer
 from .layer import Layer
 from .layered import LayeredCostmap
 from .migration import inherit, migrate
@@ -300,18 +299,6 @@ class Costmap2DROS:
         options.setdefault("footprint", self.footprint)
         options.setdefault("name", self.name)
         return self.grid.show(**options)
-
-    def show_inflation(self, **options: Any) -> Any:
-        """Draw the costs with sliders for the three inflation parameters, which start at this costmap's values.
-
-        See `Costmap2D.show_inflation` for the options.
-        """
-        options.setdefault("inscribed_radius", round(self.inscribed_radius, 3))
-        for layer in self.layers:
-            if isinstance(layer, InflationLayer):
-                options.setdefault("inflation_radius", layer.radius)
-                options.setdefault("cost_scaling_factor", layer.cost_scaling_factor)
-        return self.grid.show_inflation(**options)
 
     # -- changes -------------------------------------------------------------------------------------------------
 

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .costmap import INSCRIBED_INFLATED_OBSTACLE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D, Costs
+from .costmap import INSCRIBED_INFLATED_OBSTACLE, LETHAL_OBSTACLE, NO_INFORMATION, Costs
 from .layer import Window
 
 BATCH_CELLS = 300_000
@@ -75,17 +75,6 @@ def squared_distances(lethal: NDArray[np.bool_], radius: int) -> NDArray[Any]:
         np.minimum(result[:-rows], more[rows:], out=result[:-rows])
     capped: NDArray[Any] = np.minimum(result, kind(far))
     return capped
-
-
-def inflated(
-    grid: Costmap2D, *, inscribed_radius: float, inflation_radius: float, cost_scaling_factor: float
-) -> Costmap2D:
-    """Return a copy of a costmap inflated with these parameters [m, m, 1/m]."""
-    found = Costmap2D.of(grid.costs, grid.resolution, grid.origin)
-    reach = cell_distance(inflation_radius, grid.resolution)
-    table = cost_table(reach, grid.resolution, inscribed_radius, cost_scaling_factor)
-    inflate(found.costs, Window(0, 0, grid.width, grid.height), reach, table)
-    return found
 
 
 def inflate(costs: Costs, window: Window, radius: int, table: Costs, *, inflate_unknown: bool = False) -> None:

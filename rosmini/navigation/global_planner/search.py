@@ -180,6 +180,3 @@ class GlobalAStar(Search):
         if result == 1 and self.precise:
             _fill_around_goal(self, cell_of(self.goal))
         return result
-
-    def _waiting(self) -> NDArray[np.int32]:
-        return self._heap[: int(self._state[0])]

@@ -8,9 +8,8 @@ with a map, `maps` stores all maps without duplicates, and `slam` is the filter;
 from __future__ import annotations
 
 from .extent import known, published
-from .film import Film
 from .maps import SharedMaps
 from .matching import Matcher
 from .slam import GridSlam, Settings
 
-__all__ = ["Film", "GridSlam", "Matcher", "Settings", "SharedMaps", "known", "published"]
+__all__ = ["GridSlam", "Matcher", "Settings", "SharedMaps", "known", "published"]

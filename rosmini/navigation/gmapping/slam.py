@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +15,6 @@ from numpy.typing import NDArray
 from rosmini.core.errors import RosminiError
 from rosmini.core.geometry.angles import normalize_angle
 from rosmini.core.geometry.poses import Pose, compose, inverse
-from rosmini.core.graph.show import show
 
 from .maps import SharedMaps
 from .matching import Matcher
@@ -238,32 +236,3 @@ class GridSlam:
             found.append(node)
             node = node.parent
         return found[::-1]
-
-    def branches(self) -> tuple[Floats, ...]:
-        """Return the paths of all particles as lines (k, 2) [m]; shared parts appear once."""
-        seen: set[int] = set()
-        lines = []
-        for node in self.paths:
-            line = []
-            while node is not None:
-                line.append(node.pose[:2])
-                if id(node) in seen:
-                    break
-                seen.add(id(node))
-                node = node.parent
-            if len(line) > 1:
-                lines.append(np.array(line[::-1]))
-        return tuple(lines)
-
-    def surviving_counts(self) -> NDArray[np.int64]:
-        """Return for each scan (scans,) the number of its particles that still have descendants."""
-        layer, counts = list(self.paths), []
-        while layer and layer[0] is not None:
-            alive = {id(node): node for node in layer}
-            counts.append(len(alive))
-            layer = [node.parent for node in alive.values() if node is not None]
-        return np.array(counts[::-1], dtype=np.int64)
-
-    def show(self, **options: Any) -> Any:
-        """Return a picture of all paths and a particle's map, by default the best's: `rosmini.viz.slam_pictures`."""
-        return show("gmapping", self, **options)

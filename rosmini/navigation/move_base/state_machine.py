@@ -13,8 +13,6 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Sequence
-from copy import deepcopy
 from dataclasses import dataclass
 from enum import Enum
 from typing import NamedTuple
@@ -251,30 +249,3 @@ class StateMachine:
         self._restart_patience(now)
         self.recovery_index += 1
         self._enter(now, Event.RECOVERED, State.PLANNING)
-
-
-def recovery_steps(names: Sequence[str]) -> list[tuple[str, str, str]]:
-    """Return the steps (from, event, to) of a robot without a plan that has recovery behaviours of these names.
-
-    The state machine runs without a plan until it aborts; after each behaviour a copy of it receives a plan.
-    """
-    machine, limits = StateMachine(Limits(), len(names)), Limits()
-    found: list[tuple[str, str, str]] = []
-    before, now = "navigate", 0.0
-    machine.start_goal(now)
-    while True:
-        now += 2 * limits.planner_patience
-        machine.plan_failed(now)
-        decision = machine.step()
-        if not isinstance(decision, Recover):
-            return [*found, (before, "stuck", "abort")]
-        row = f"{decision.number + 1}. {names[decision.number]}"
-        found.append((before, "stuck", row))
-        machine.recovered(now)
-        machine.step()  # asks for a plan
-        freed = deepcopy(machine)
-        freed.plan_found(now)
-        freed.plan_taken()
-        if isinstance(freed.step(), Follow):
-            found.append((row, "free", "navigate"))
-        before = row

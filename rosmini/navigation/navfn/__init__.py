@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from .by_hand import HandSearch
-from .search import NavfnSearch, Search, show_steps
+from .search import NavfnSearch, Search
 from .wave import HIGH
 
-__all__ = ["HIGH", "HandSearch", "NavfnSearch", "Search", "show_steps"]
+__all__ = ["HIGH", "NavfnSearch", "Search"]

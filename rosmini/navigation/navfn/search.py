@@ -1,4 +1,4 @@
-"""Searches on cost grids that can be stepped; potential, frontier and path can be inspected between steps.
+"""Searches on cost grids, which can be run in parts.
 
 A search takes costs (h, w) as in `Costmap2D`, and start and goal as cells (column, row); whole numbers are cell
 centres. It works on a copy with a lethal rim, in which the start's cell is free, because the robot is there. (The
@@ -9,13 +9,11 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.core.graph.show import show
 from rosmini.navigation.costmap_2d.costmap import (
     INSCRIBED_INFLATED_OBSTACLE,
     LETHAL_OBSTACLE,
@@ -29,7 +27,6 @@ from .wave import ARRIVED, EXPANDED, HIGH, compiled_wave
 
 Point = tuple[float, float]
 Points = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 UNLIMITED = 1 << 62
 """A number greater than that of all cells."""
@@ -107,23 +104,6 @@ class Search(ABC):
     def expanded(self) -> int:
         """The number of expansions so far; cells that were expanded twice count twice."""
 
-    @property
-    def frontier(self) -> Ints:
-        """The waiting cells (n, 2), as columns and rows."""
-        waiting = np.unique(self._waiting()).astype(np.int64)
-        return np.stack([waiting % self.row - 1, waiting // self.row - 1], axis=-1)
-
-    @property
-    def parents(self) -> Ints:
-        """For each cell (h, w, 2) the column and row of its lowest four-neighbour; -1 if none is lower."""
-        whole = self.potential_with_rim.reshape(self.costs.shape)
-        around = np.stack([whole[1:-1, :-2], whole[1:-1, 2:], whole[:-2, 1:-1], whole[2:, 1:-1]])
-        best = around.argmin(axis=0)
-        rows, columns = np.indices(best.shape)
-        cells = np.stack([columns + np.array([-1, 1, 0, 0])[best], rows + np.array([0, 0, -1, 1])[best]], axis=-1)
-        cells[~((around.min(axis=0) < self.potential) & self.reached)] = -1
-        return cells
-
     def expand(self, count: int = UNLIMITED) -> bool:
         """Expand up to `count` cells; return True once the search is finished."""
         if not self.finished and count > 0:
@@ -172,15 +152,8 @@ class Search(ABC):
         """Return the reason why there is no path: see `search_failure`."""
         return search_failure(self, grid)
 
-    def show(self, **options: Any) -> Any:
-        """Return a picture of the costs, the potential, the frontier and, if the goal was reached, the path."""
-        return show("search", self, **options)
-
     @abstractmethod
     def _expand(self, count: int) -> int: ...
-
-    @abstractmethod
-    def _waiting(self) -> NDArray[np.int32]: ...
 
 
 def search_failure(search: Search, grid: Costmap2D | None = None) -> PlanningFailure:
@@ -233,11 +206,6 @@ def _place(cell: tuple[float, float], grid: Costmap2D | None) -> str:
         return f"({cell[0]:g}, {cell[1]:g})"
     x, y = grid.map_to_world(*cell)
     return f"({x:.2f}, {y:.2f})"
-
-
-def show_steps(searches: Mapping[str, Search], **options: Any) -> Any:
-    """Return a player for searches that have not started, by name: they run side by side, step by step."""
-    return show("search_steps", searches, **options)
 
 
 class WaveSearch(Search):
@@ -305,14 +273,6 @@ class WaveSearch(Search):
                 self._heuristic,
                 count,
             )
-        )
-
-    def _waiting(self) -> NDArray[np.int32]:
-        current, following, at, here, after, over, _ = (int(each) for each in self._state)
-        room = self.costs.size
-        parts = ((current, at, here), (following, 0, after), (3 - current - following, 0, over))
-        return np.concatenate(
-            [self._blocks[block * room + first : block * room + last] for block, first, last in parts]
         )
 
 

@@ -22,20 +22,8 @@ def samples():
     )  # fmt: skip
 
 
-def test_the_table_has_the_cheapest_and_one_of_each_that_was_rejected(samples):
-    assert samples.table().split("\n") == [
-        "number     x  theta  obstacle  path  total",
-        "     0  0.20   0.00      1.00  3.00   4.00",
-        "     1  0.20  -0.50      2.00  6.00   8.00",
-        "     2  0.20   0.50         -  1.50      -",
-        "2: " + samples.reason(2),
-    ]
-    assert len(samples.table(1).split("\n")) == 4
-
-
 def test_counts_are_by_critic(samples):
     assert samples.counts() == {"obstacle": 1, "generator": 2}
     assert samples.reason(0) == ""
     assert samples.reason(2).startswith("obstacle: ") and samples.reason(2).endswith("point 2 of 4")
-    assert samples.nearest(0.2, 0.0, -0.4) == 1
     assert len(samples.trajectory(1)) == 3

@@ -64,7 +64,7 @@ def test_who_turned_right_twice_may_not_turn_left():
 def test_a_velocity_comes_up_to_the_sample_by_the_acceleration():
     slow = replace(WHEELS, acc_lim_x=0.1)
     _, samples = planned(AHEAD, slow)
-    number = samples.nearest(0.17, 0.0, 0.0)
+    number = int(np.argmin(np.abs(samples.velocities - (0.17, 0.0, 0.0)).sum(axis=1)))
     points = samples.trajectory(number)
     dt = 1.7 / len(points)
     speeds = np.diff(points[:, 0]) / dt

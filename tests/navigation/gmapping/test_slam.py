@@ -88,19 +88,6 @@ def test_a_match_that_scores_too_little_is_not_taken():
     assert slam.poses[:, :2] == pytest.approx(np.tile((1.0, 0.0), (3, 1)))
 
 
-def test_paths_are_a_tree():
-    slam = a_slam(particles=3, resample_threshold=0.0)
-    for x in (0.0, 1.0, 2.0):
-        slam.process(square(0.2 * x, 0.0, 0.0), BEARINGS, (x, 0.0, 0.0), x)
-    slam.paths = [slam.paths[0], slam.paths[0], slam.paths[2]]
-    slam.paths = [type(slam.paths[0])((3.0, float(n), 0.0), 3.0, one) for n, one in enumerate(slam.paths)]
-    assert slam.surviving_counts().tolist() == [2, 2, 2, 3]
-    lines = slam.branches()
-    assert [len(line) for line in lines] == [4, 2, 4], "the second leaves the first at its end"
-    assert lines[1][0] == pytest.approx(lines[0][2])
-    assert lines[1][1].tolist() == [3.0, 1.0]
-
-
 def test_an_odometry_that_jumps():
     slam = a_slam()
     assert not slam.jumps_to((50.0, 0.0, 0.0)), "the first may be anywhere"

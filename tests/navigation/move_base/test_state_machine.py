@@ -13,7 +13,6 @@ from rosmini.navigation.move_base.state_machine import (
     State,
     StateMachine,
     Trigger,
-    recovery_steps,
 )
 
 
@@ -157,14 +156,3 @@ def test_whatever_happens_the_changes_are_those_of_the_table(events, frequency, 
             else:
                 it.command_failed(now)
     assert {(each.before, each.event, each.after) for each in it.history} <= set(TRANSITIONS)
-
-
-def test_a_stuck_robot_goes_through_the_list_and_leaves_it_when_there_is_a_plan():
-    assert recovery_steps(["forget", "turn"]) == [
-        ("navigate", "stuck", "1. forget"),
-        ("1. forget", "free", "navigate"),
-        ("1. forget", "stuck", "2. turn"),
-        ("2. turn", "free", "navigate"),
-        ("2. turn", "stuck", "abort"),
-    ]
-    assert recovery_steps([]) == [("navigate", "stuck", "abort")]
