@@ -17,10 +17,13 @@ import numpy as np
 from rosmini.book.checks import Script, Wrong, exercise, expect, expect_type
 from rosmini.book.drives import Drive, Pose
 from rosmini.book.trials import Trial
+from rosmini.core.actionlib import SimpleActionServer
 from rosmini.core.errors import RosminiError
 from rosmini.core.geometry import polygons
 from rosmini.core.packages import PackageIndex
+from rosmini.msgs.move_base_msgs.msg import MoveBaseAction
 from rosmini.msgs.std_msgs.msg import String
+from rosmini.msgs.std_srvs.srv import Empty
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -239,6 +242,7 @@ STACK = """
 @exercise("night_round", praise="It comes back to a door that was shut, and knows when to give up.")
 def night_round(answer: Script) -> Any:
     """A node that visits all places, though a door is shut for some time, and another one for ever."""
+    _expect_patience(answer)
     places = [{"name": name, "x": x, "y": y} for name, (x, y) in PLACES.items()]
     what = Trouble(((0.0, "child"), (16.0, "bath")))
     with Patrol(STACK.format(x=START[0], y=START[1], places=places), "The night", tray=False) as drive:
@@ -246,6 +250,30 @@ def night_round(answer: Script) -> Any:
         night = drive.night(what)
         judge(night, what)
         return night.view
+
+
+def _expect_patience(answer: Script) -> None:
+    """Expect no place to be given up in the first minute, however often a `move_base` aborts its goal."""
+    with Trial("empty", is_shown=False) as trial:
+        desk, mover = trial.graph.node("desk"), trial.graph.node("move_base")
+        reports: list[str] = []
+        desk.subscriber("/report", String, lambda message: reports.append(message.data))
+        desk.set_param("/patrol/places", [{"name": "child", "x": 1.0, "y": 0.0}])
+        mover.service("~clear_costmaps", Empty, lambda _: {})
+
+        def drive(_: Any) -> None:
+            mover.sleep(5.0)
+            server.set_aborted()
+
+        server = SimpleActionServer(mover, "/move_base", MoveBaseAction, drive)
+        trial.start(answer)
+        for second in range(round(PATIENCE)):
+            trial.graph.run(1.0)
+            expect(
+                "child: given up" not in reports,
+                f"With one place whose goal fails every few seconds, it was given up after {second + 1} s.",
+                f"come back to it, however often it fails, until {PATIENCE:.0f} s after the start",
+            )
 
 
 # ---- patrol_test: a test that fails when it should ----

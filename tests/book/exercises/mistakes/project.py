@@ -68,6 +68,7 @@ MISTAKES = {
         script("client.get_state() == actionlib.GoalStatus.SUCCEEDED", "True"),
         script("begin + 60", "begin"),
         script("begin + 60", "begin + 600"),
+        script("rospy.get_time() < begin + 60", "not again"),
         script("todo.append((place, True))", "todo.append(place)"),
     ],
     "patrol_test": [
