@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,14 +14,8 @@ from rosmini.viz.view import Picture, ViewError
 from rosmini.viz.words import plural
 from rosmini.viz.world_pictures import HEIGHT, Other, Scene, pose_text
 
-if TYPE_CHECKING:
-    pass
-
 Floats = NDArray[np.float64]
 
-LEFT, GAP, TOP, BOTTOM, ROW_GAP = 50.0, 66.0, 58.0, 42.0, 50.0
-"""Margins around the plots and gaps between them [px]."""
-STROKE = 1.8
 MIN_MOVED = 0.005
 """Minimum distance that counts as movement of an object [m]."""
 

@@ -80,10 +80,6 @@ class MapFile:
         """The path of the image, relative to the folder of the YAML file unless absolute."""
         return self.document.path.parent / self.fields.image
 
-    def pixels(self) -> NDArray[np.uint8]:
-        """Return the pixels (h, w, channels) of the image, row 0 at the bottom. Raises `MapDataError` if unreadable."""
-        return self._rows(lambda pixels: pixels)
-
     def _rows(self, convert: Callable[[NDArray[np.uint8]], NDArray[_Cell]]) -> NDArray[_Cell]:
         """Return the image with its pixels (h, w, channels) converted by `convert`, row 0 at the bottom."""
         place, image = self.document.place("image"), self.image

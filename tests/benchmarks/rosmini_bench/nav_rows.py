@@ -269,10 +269,9 @@ FAILURES = """## Each failure of a careful robot
 
 CAUSES = """## Where it fails, and why
 
-We looked at each failure of seed 7: the costmaps, the plan, and why the local planner rejected each velocity
-(`explain()`, see {doc}`../../notebooks/7_navigation/90_move_base`). The chapter
-{doc}`../../notebooks/7_navigation/95_tune_and_fix` shows how to find and fix such faults. These are the causes, with
-what `careful.yaml` changes:
+We looked at each failure of seed 7: the costmaps, the plan, and why the local planner rejected each velocity. The
+chapter {doc}`../../notebooks/7_navigation/95_tune_and_fix` shows how to find and fix such faults. These are the causes,
+with what `careful.yaml` changes:
 
 - **Footprint.** The origin of a burger is near its front, so the inscribed radius of its footprint is only 5 cm.
   A global plan keeps only this distance, and leads through places where the sides have no room, such as between the
