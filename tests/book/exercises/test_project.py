@@ -25,4 +25,4 @@ def test_the_trouble_of_a_seed_is_always_the_same_and_over_before_patience_ends(
 def test_the_robot_comes_back_to_the_room_that_was_shut(cells):
     reports = re.findall(r'data: "(.*)"', printed(cells, "%rostopic echo /report"))
     assert reports == ["child: later", "study: reached", "bath: reached", "child: reached", "done"]
-    assert "child: missed" in printed(cells, "rosmini.wait(70)")
+    assert "child: missed" in printed(cells, "rosmini.wait(48)")
