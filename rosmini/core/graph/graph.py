@@ -301,7 +301,8 @@ class Graph:
         """Connect this graph with the nodes of other processes and machines, until :meth:`offline`.
 
         If a Master answers at ``master_uri`` (by default, the value of ``ROS_MASTER_URI``), the graph joins it: its
-        nodes register there, and its parameters are set there. Otherwise the graph's own Master is served there.
+        nodes register there, and its parameters are set there. Otherwise the graph's own Master is served there; at
+        port 0, it is served at any free port.
         Others reach the nodes at ``ROS_IP`` or ``ROS_HOSTNAME`` of ``environ`` (by default ``os.environ``); only this
         machine can if neither is set. In simulated time ``/clock`` is published and ``/use_sim_time`` set,
         until a simulator of the graph does it.

@@ -48,7 +48,7 @@ class Addresses(NamedTuple):
     @property
     def master(self) -> tuple[str, int]:
         """Host and port of the Master."""
-        return host_and_port(self.master_uri)
+        return host_and_port(self.master_uri, any_port=True)
 
     def uri(self, port: int, scheme: str = "http") -> str:
         """Return the URI to advertise for a server of this process: ``http://host:port/``, or ``rosrpc://host:port``."""
@@ -126,12 +126,15 @@ HERE = Addresses(MASTER_URI, LOCALHOST, LOOPBACK)
 """Addresses of a process without network settings: only this machine can reach it."""
 
 
-def addresses(environ: Mapping[str, str] | None = None, arguments: Mapping[str, str] | None = None) -> Addresses:
+def addresses(
+    environ: Mapping[str, str] | None = None, arguments: Mapping[str, str] | None = None, *, any_port: bool = False
+) -> Addresses:
     """Return the addresses of a process.
 
     ``environ`` has ``ROS_MASTER_URI``, ``ROS_HOSTNAME`` and ``ROS_IP`` (``os.environ`` by default); ``arguments`` has
     ``__master``, ``__hostname`` and ``__ip`` by these keys, as :attr:`rosmini.core.names.Remappings.special` does, and
-    takes precedence. Raises ``ROSInitException`` for an invalid address.
+    takes precedence. With ``any_port`` the Master's port may be 0, for a Master to serve at any free port. Raises
+    ``ROSInitException`` for an invalid address.
     """
     environ = os.environ if environ is None else environ
     arguments = arguments or {}
@@ -140,7 +143,7 @@ def addresses(environ: Mapping[str, str] | None = None, arguments: Mapping[str, 
         ("ROS_MASTER_URI", environ.get("ROS_MASTER_URI")),
         ("the default", MASTER_URI),
     )
-    master_host, _ = host_and_port(uri, source)
+    master_host, _ = host_and_port(uri, source, any_port=any_port)
     given = (
         ("__hostname:=", arguments.get("__hostname")),
         ("__ip:=", arguments.get("__ip")),
@@ -152,17 +155,19 @@ def addresses(environ: Mapping[str, str] | None = None, arguments: Mapping[str, 
     return Addresses(uri, host, _bound(host), tuple(name for _, name in given if name))
 
 
-def host_and_port(uri: str, source: str = "the Master's address") -> tuple[str, int]:
+def host_and_port(uri: str, source: str = "the Master's address", *, any_port: bool = False) -> tuple[str, int]:
     """Return host and port of ``http://host:port``; the default port is 80, as on the Web.
 
-    Raises ``ROSInitException``, naming the ``source``, if the format is different.
+    Raises ``ROSInitException``, naming the ``source``, if the format is different, or if the port is 0 and
+    ``any_port`` is not set.
     """
     try:
         parts = urlsplit(uri)
         host, port = parts.hostname, parts.port
     except ValueError:
         host, port = None, None
-    if not host or parts.scheme not in ("http", "rosrpc") or parts.path not in ("", "/") or port == 0:
+    is_refused = port == 0 and not any_port
+    if not host or parts.scheme not in ("http", "rosrpc") or parts.path not in ("", "/") or is_refused:
         raise ROSInitException(
             f"{source} is {shown(uri)}, which is no address of a Master. It has the form http://host:port, "
             f"such as {MASTER_URI}."

@@ -77,7 +77,8 @@ def online(
     graph: Graph, master_uri: str | None = None, environ: Mapping[str, str] | None = None, *, live: bool = True
 ) -> Online:
     """Connect a graph with others; see :meth:`Graph.online <rosmini.core.graph.graph.Graph.online>`."""
-    return Online(graph, addresses(environ, {"__master": master_uri} if master_uri else None), live=live)
+    where = addresses(environ, {"__master": master_uri} if master_uri else None, any_port=True)
+    return Online(graph, where, live=live)
 
 
 class Online:
@@ -119,22 +120,28 @@ class Online:
     # -- going online --------------------------------------------------------------------------------------------
 
     def _find_master(self) -> None:
-        """Find a Master that answers, or serve our own."""
+        """Find a Master that answers, or serve our own: at port 0 at once, since no Master can be there."""
         uri = self.where.master_uri
+        host, port = self.where.master
+        if not port:
+            self._serve(port)
+            return
         try:
             _StandingStill(uri, self.network).call("getPid", "/rosmini")
         except MasterUnreachable as error:
             if not _is_absent(error):
                 raise
-            host, port = self.where.master
             if not is_loopback(host) and host != self.where.host:
                 raise MasterUnreachable(
                     f"{error}. If {host} is this machine, set ROS_IP or ROS_HOSTNAME to {host}: then the Master of "
                     "this graph is served there"
                 ) from error
-            self.server = MasterServer(self.network.io, self._own, self.where, port, warn=self.network.warn)
+            self._serve(port)
         else:
             self.joined = True
+
+    def _serve(self, port: int) -> None:
+        self.server = MasterServer(self.network.io, self._own, self.where, port, warn=self.network.warn)
 
     def _move(self, change: Any) -> None:
         """Give all nodes the addresses of the current transports."""

@@ -7,6 +7,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from typing import Any
+from urllib.parse import urlsplit
 
 import pytest
 
@@ -234,6 +235,14 @@ def test_a_graph_of_a_notebook_can_stand_still_online(graph: Graph, environ: dic
     with connect(environ) as elsewhere:
         assert elsewhere.ask_as("/test").find("lookupNode", "/rosout") == graph.nodes["/rosout"].uri
     assert graph.now() == now
+
+
+def test_graphs_that_ask_for_any_port_get_one_each(graph: Graph) -> None:
+    with Graph() as other:
+        for each in (graph, other):
+            each.online("http://localhost:0", live=False)
+        ports = {urlsplit(each.master_uri).port for each in (graph, other)}
+    assert len(ports - {0, None}) == 2
 
 
 def test_topics_outlive_a_master_that_is_served_no_more(
