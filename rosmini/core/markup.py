@@ -168,7 +168,7 @@ class Element:
             raise self.error(f"{what or f'<{self.tag}>'} is true or false, not {shown(text.strip())}")
         return value
 
-    # ---- serialization ----
+    # ---- serialisation ----
 
     def source(self, indent: str = "") -> str:
         """Return the element as XML, with the same tags, attributes and texts, but without white space and comments."""

@@ -47,7 +47,7 @@ def pub_parser() -> Parser:
     add("-r", "--rate", metavar="RATE", help="so many messages a second")
     parser.flag("-1", "--once", dest="once", help="publish one message and end")
     parser.flag("-l", "--latch", dest="latch", help="with -r: latch, for late subscribers")
-    parser.flag("-s", "--substitute-keywords", dest="substitute", help="with -r: fill in now and auto each time anew")
+    parser.flag("-s", "--substitute-keywords", dest="substitute", help="with -r: fill in now and auto for each message")
     parser.flag("--use-rostime", dest="use_rostime", help="the time of /clock for now and auto, if there is one")
     add_duration(parser)
     return parser

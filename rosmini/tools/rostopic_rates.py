@@ -75,7 +75,7 @@ def hz_parser() -> Parser:
     usage = "[options] /topic_0 [/topic_1 [topic_2 [..]]]"
     parser = _parser("hz", usage, "Measure how often messages come.", "-w 100 /scan")
     parser.add_option("--filter", metavar="EXPR", help="only messages m for which this is true: m.data > 3")
-    parser.flag("--wall-time", dest="wall_time", help="by the clock on the wall, where /clock stands still")
+    parser.flag("--wall-time", dest="wall_time", help="use wall-clock time, for a /clock that has stopped")
     return parser
 
 

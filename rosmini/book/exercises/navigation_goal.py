@@ -191,7 +191,7 @@ def waiter(answer: Script) -> Any:
 
 
 def _expect_goals(errands: Errands) -> None:
-    """Expect that what has happened so far is right."""
+    """Expect valid goals that ended as they should, so far."""
     errands.expect_valid_goals()
     for number, (state, end) in enumerate(errands.ends):
         place, took = errands.places[number], end - errands.begun[number]

@@ -29,7 +29,7 @@ INTERNAL = ("rospy", "rospy.client", "rospy.core", "rospy.init", "rospy.internal
 """The loggers of the client library itself, by rospy's names; they write only to log files."""
 
 OWN = str(Path(__file__).resolve().parents[2]) + os.sep
-"""Common prefix of the names of rosmini's own source files."""
+"""Common prefix of the names of rosmini's source files."""
 LOGGING = (str(Path(__file__).parent) + os.sep, str(Path(OWN, "ros", "rospy")) + os.sep)
 """Prefixes of those of rosmini's files that log on behalf of other code; built-in nodes are elsewhere."""
 

@@ -91,7 +91,7 @@ def explain(history: History, name: str, count: int = 1, depth: int = DEPTH) -> 
         hint = nearest(name, known) or f"what was published is on {', '.join(known) or 'no topic yet'}"
         raise NothingRecorded(
             f"nothing was published on {name}, and no such service was called, since recording began: {hint}. "
-            "(A simulated device makes no message that nobody listens to.)"
+            "(A simulated device makes no messages while its topic has no subscriber.)"
         )
     return [_why(history, event, depth) for event in events]
 

@@ -389,8 +389,8 @@ class ScriptContext:
         frame = caller(1)
         place = f"{Path(frame.f_code.co_filename).name}, line {frame.f_lineno}"
         text = (
-            f"{place}: this loop never sleeps. It keeps a processor busy, floods whoever listens, and in simulated "
-            "time it makes the whole graph slow. Add rate = rospy.Rate(10) before the loop, and rate.sleep() at the "
+            f"{place}: this loop never sleeps. It keeps a processor busy, floods its subscribers, and in simulated "
+            "time it slows down the whole graph. Add rate = rospy.Rate(10) before the loop, and rate.sleep() at the "
             "end of its body."
         )
         if self.node is not None:

@@ -2,7 +2,7 @@
 
 Exact poses are computed at `GRID` + 1 times of a revolution, and moving objects are assumed to follow arcs between
 them. So the origins of the beams are exact while speeds are constant; while speeds change, the error is at most a T^2 /
-(8 GRID^2), with a the acceleration and T the time of a revolution: a Burger that begins to turn with 12.5 rad/s^2, its
+(8 GRID^2), for an acceleration a and a revolution in the time T: a Burger that begins to turn with 12.5 rad/s^2, its
 maximum, is off by 0.6 milliradians for a moment. Other moving objects are placed, for each `BEAMS_PER_POSE` beams, at
 their pose in the middle of them: an error of 2.2 ms of their motion, half a millimetre for a Burger, and 3 mm for a
 walker at 1.4 m/s.

@@ -104,7 +104,7 @@ class GazeboServer(Pictured, Simulation):
                 "all of which are rosmini's here"
             )
         if options.record:
-            node.logwarn("gzserver -r records a log of Gazebo's own; here `rosbag record` records what happens")
+            node.logwarn("gzserver -r records a log in Gazebo's format; here `rosbag record` records what happens")
         self.world = RunningWorld(node, found, paused=options.pause, noise=noise)
         self.clock = ClockDevice(self.world.host, rate=_rate(node))
         self.master = GazeboMaster(self.world, self.clock.publish_now)

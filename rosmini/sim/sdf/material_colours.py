@@ -1,4 +1,4 @@
-"""Colours of SDF materials: four numbers, or the name of one of Gazebo's own materials."""
+"""Colours of SDF materials: four numbers, or the name of one of Gazebo's materials."""
 
 from __future__ import annotations
 

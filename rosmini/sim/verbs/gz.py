@@ -1,4 +1,4 @@
-"""`rosmini gz`: the verbs of Gazebo's own tool (http://classic.gazebosim.org/tutorials?tut=components).
+"""`rosmini gz`: the verbs of Gazebo's tool (http://classic.gazebosim.org/tutorials?tut=components).
 
 `sdf` works on files. The others act on a running server through the ROS services of /gazebo: in a terminal that of the
 Master at ROS_MASTER_URI, in Python that of a graph. `topic`, and `world` with the options for which gazebo_ros has no

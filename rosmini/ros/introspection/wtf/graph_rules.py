@@ -116,8 +116,8 @@ def no_clock(graph: Survey) -> Iterator[Finding]:
     if publishers and not simulated:
         yield Finding(
             "clock_unused", "WARNING", "/clock is published and /use_sim_time is not set:", publishers,
-            "Nodes go by the clock on the wall and take simulated data for old: `rosparam set /use_sim_time true` "
-            "before they start.",
+            "Nodes use wall-clock time and treat simulated data as old: `rosparam set /use_sim_time true` before "
+            "they start.",
         )  # fmt: skip
     if len(publishers) > 1:
         yield Finding(
@@ -136,7 +136,7 @@ def several_drivers(graph: Survey) -> Iterator[Finding]:
     if found:
         yield Finding(
             "several_drivers", "WARNING", "Several nodes drive the same robot:", tuple(found),
-            "It obeys whoever spoke last. End one, or let a multiplexer choose (topic_tools mux, twist_mux).",
+            "It obeys the latest command. End one, or let a multiplexer choose (topic_tools mux, twist_mux).",
         )  # fmt: skip
 
 
