@@ -74,8 +74,8 @@ def visit_inline_math(self: HTML5Translator, node: nodes.math) -> None:
 
 
 def visit_block_math(self: HTML5Translator, node: nodes.math_block) -> None:
-    """Write a displayed formula, with its number if it has one."""
-    self.body.append(self.starttag(node, "div", CLASS="math-block"))
+    """Write a displayed formula, with its number if it has one; the arrow keys scroll it where it is too wide."""
+    self.body.append(self.starttag(node, "div", CLASS="math-block", tabindex="0"))
     self.body.append(mathml(node.astext(), display=True))
     if node.get("number"):
         self.body.append(f'<span class="eqno">({node["number"]})')
@@ -394,6 +394,36 @@ def hush(app: Sphinx, error: Exception | None) -> None:
             script.write_text(text.replace("console.log(", "void("), encoding="utf-8", newline="\n")
 
 
+CORRECTIONS = (
+    # The text of a button is its name, which a label may not contradict.
+    (re.compile(r'(<button class="btn search-button-field[^>]*?) aria-label="Search"'), r"\1"),
+    (re.compile(r'(<i class="theme-switch [^>]*?) title="[^"]*"'), r"\1"),
+    (re.compile(r'<summary aria-label="Toggle hidden content">'), "<summary>"),
+    # Everything belongs to a landmark.
+    (
+        re.compile(r'<div class="sidebar-primary-item">(?=[^<]*<a class="navbar-brand)'),
+        r'<div role="navigation" aria-label="Home">',
+    ),
+    (re.compile(r'<th class="head"><p></p></th>|<th scope="col"></th>'), "<td></td>"),
+    # Citations: a role that is deprecated, and a list whose entries are none.
+    (re.compile(r' role="doc-biblioentry"'), ""),
+    (re.compile(r'<div role="list" class="citation-list">'), '<div class="citation-list">'),
+)
+"""What axe finds in the pages of the theme and of docutils, and how it is put right."""
+
+
+def make_accessible(app: Sphinx, error: Exception | None) -> None:
+    """Correct the markup of the theme's pages for screen readers (WCAG 2.2)."""
+    if error is not None or app.builder.format != "html":
+        return
+    for page in Path(app.outdir).rglob("*.html"):
+        text = corrected = page.read_text(encoding="utf-8")
+        for found, better in CORRECTIONS:
+            corrected = found.sub(better, corrected)
+        if corrected != text:
+            page.write_text(corrected, encoding="utf-8", newline="\n")
+
+
 def setup(app: Sphinx) -> dict[str, Any]:
     """Register all of it with Sphinx."""
     app.add_html_math_renderer("mathml", (visit_inline_math, None), (visit_block_math, None))
@@ -411,6 +441,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.connect("html-page-context", let_names_break)
     app.connect("build-finished", direct_downloads)
     app.connect("build-finished", copy_viewer, priority=998)
+    app.connect("build-finished", make_accessible)
     # After every extension has copied its scripts.
     app.connect("build-finished", hush, priority=999)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from ..conftest import nightly
+from ..conftest import nightly, tool
 
 pytestmark = pytest.mark.browser
 
@@ -27,12 +27,19 @@ def problems_of(page, width, scheme):
     return found
 
 
+def violations_of(page):
+    """What a screen reader or the keyboard cannot use on a page, by axe: the rule, how often, and the first element."""
+    axe = tool("axe_playwright_python.sync_playwright").Axe()
+    found = axe.run(page, options={"resultTypes": ["violations"], "preload": False}).response["violations"]
+    return [f"{each['id']} ({len(each['nodes'])}): {each['nodes'][0]['html'][:120]}" for each in found]
+
+
 LOOKS = (("light", "desktop"), ("dark", "phone"))
 
 
 @pytest.mark.parametrize("which", ["notebooks/*/10_turtlebot3.html", *nightly("**/*.html")])
 def test_each_page_opens_with_an_empty_console(book_html, chromium, watch, shared_tmp, which):
-    """A page is seen in both schemes and both widths.
+    """A page is seen in both schemes and both widths, and axe finds nothing that hinders a reader.
 
     Pages take turns in what is there when they load and what comes when the reader's system and window change: each
     kind of figure is on many pages.
@@ -61,6 +68,8 @@ def test_each_page_opens_with_an_empty_console(book_html, chromium, watch, share
             look(scheme, width)
             page.evaluate(IS_DRAWN)
             problems += [f"{name}: {each}" for each in problems_of(page, width, scheme)]
+            if page.url.startswith(path.as_uri()):  # no page that leads to another one
+                problems += [f"{name}, {scheme}: {each}" for each in violations_of(page)]
             if IS_SHOT and scheme == "light":
                 page.screenshot(path=screenshots / f"{name.replace('/', '_')}.png", full_page=True)
         problems += [f"{name}: {seen}" for seen in watcher.seen]

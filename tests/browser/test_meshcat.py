@@ -373,7 +373,7 @@ def test_two_runs_have_one_clock_and_one_bar_and_are_seen_from_the_same_side(ope
     page = open_page("deep/er/two.html", scheme=scheme, width=width)
     page.locator("iframe").nth(1).scroll_into_view_if_needed()
     page.wait_for_function("document.querySelectorAll('iframe[data-ready]').length === 2")
-    assert page.locator("h4").all_inner_texts() == ["as it was", "twice as fast"]
+    assert page.locator(".rr-title").all_inner_texts() == ["as it was", "twice as fast"]
     assert page.get_by_role("slider", name="Time").count() == 1
     page.get_by_role("slider", name="Time").fill("4")
     robot = node("meshcat/robots/robot")

@@ -177,7 +177,7 @@ def test_the_view_follows_is_moved_and_comes_back_by_keys(page):
 
 def test_two_runs_have_one_clock(page):
     both = page.locator(".rosmini-replay").nth(1)
-    assert both.locator("h4").all_inner_texts() == ["before", "after"]
+    assert both.locator(".rr-title").all_inner_texts() == ["before", "after"]
     scrub(page, 6.0, which=1)
     for canvas in (1, 2):
         assert is_near(colour(page, 3.55, 1.55, canvas), (255, 255, 255))

@@ -114,7 +114,7 @@
       const part = make("div", {}, { minWidth: 0 });
       const { title } = pane.data;
       pane.title = title ? `${title}: ${options.title}` : options.title;
-      if (title) part.append(make("h4", { textContent: title }, { fontSize: "14px", fontWeight: 600, margin: 0, padding: "0.45rem 0.2rem 0.2rem" }));
+      if (title) part.append(make("p", { className: "rr-title", textContent: title }, { fontSize: "14px", fontWeight: 600, margin: 0, padding: "0.45rem 0.2rem 0.2rem" }));
       pane.frame = make("iframe", { title: pane.title }, {
         display: "block", width: "100%", height: `${options.height}px`, border: "0", borderRadius: "4px",
       });

@@ -60,10 +60,11 @@
     const made = element(
       "button",
       {
-        type: "button", class: `rp-key${map.stops.includes(key) ? " rp-stop" : ""}`, "data-key": key, "aria-label": name,
+        type: "button", class: `rp-key${map.stops.includes(key) ? " rp-stop" : ""}`, "data-key": key,
         "aria-keyshortcuts": shortcuts.join(" "), title: `${name} (${key})`,
       },
-      element("span", { class: "rp-arrow", "aria-hidden": "true" }, arrow), element("kbd", { "aria-hidden": "true" }, NAMES[key] ?? key),
+      element("span", { class: "rp-arrow", "aria-hidden": "true" }, arrow), element("span", { class: "rp-name" }, name),
+      element("kbd", {}, NAMES[key] ?? key),
     );
     return made;
   }

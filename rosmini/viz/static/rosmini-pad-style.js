@@ -110,6 +110,7 @@ globalThis.rosminiPadStyle = `
   touch-action: none;
 }
 .rp-arrow { color: var(--rosmini-blue); font-size: 19px; font-weight: 700; line-height: 1; }
+.rp-name { clip-path: inset(50%); height: 1px; overflow: hidden; position: absolute; width: 1px; }
 .rosmini-pad .rp-key kbd { background: none; border: 0; color: var(--rosmini-muted); padding: 0; }
 .rosmini-pad button.rp-stop .rp-arrow { color: var(--rosmini-vermilion); font-size: 15px; line-height: 19px; }
 .rosmini-pad button:hover { border-color: var(--rosmini-blue); }

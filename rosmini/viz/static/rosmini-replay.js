@@ -40,7 +40,7 @@ border-radius:8px;box-sizing:border-box;color:var(--ink);font:14px/1.4 var(--ros
 .rosmini-replay canvas{cursor:pointer;touch-action:pan-x pan-y}
 .rosmini-replay .rr-panes{display:grid;gap:.3rem;grid-template-columns:repeat(auto-fit,minmax(min(100%,18rem),1fr))}
 .rosmini-replay .rr-pane{min-width:0}
-.rosmini-replay h4{font-size:14px;font-weight:600;margin:0;padding:.45rem .7rem .2rem}
+.rosmini-replay .rr-title{font-size:14px;font-weight:600;margin:0;padding:.45rem .7rem .2rem}
 .rosmini-replay .rr-view{display:flex;gap:.1rem;margin-left:auto}
 .rosmini-replay button[aria-pressed=true]{background:color-mix(in srgb,var(--blue) 24%,transparent)}
 .rosmini-replay .rr-row{align-items:center;display:flex;flex-wrap:wrap;gap:.4rem .6rem;padding:.45rem .7rem}
@@ -93,7 +93,7 @@ margin:0;padding:.2rem .7rem .6rem}
 <kbd>Page up</kbd> <kbd>Page down</kbd> or <kbd>Ctrl</kbd> and wheel zoom, <kbd>Shift</kbd> and arrows or drag move, ${followed ? "<kbd>f</kbd> follow, " : ""}<kbd>0</kbd> reset${
   asks ? `, <kbd>w</kbd> or <kbd>Shift</kbd> and click: ${asks}` : ""}</p>
 <p role="status"></p>`;
-  const PANE = '<h4 hidden></h4><canvas role="img"></canvas><dl></dl>';
+  const PANE = '<p class="rr-title" hidden></p><canvas role="img"></canvas><dl></dl>';
 
   /* What the view can follow, in words; nothing if nothing moves. */
   const followed = ([run]) => (run.scene ? "the robot" : run.bodies[0]?.name);
@@ -131,8 +131,8 @@ margin:0;padding:.2rem .7rem .6rem}
       const pane = document.createElement("div");
       pane.className = "rr-pane";
       pane.innerHTML = PANE;
-      pane.querySelector("h4").textContent = run.title;
-      pane.querySelector("h4").hidden = runs.length < 2;
+      pane.querySelector(".rr-title").textContent = run.title;
+      pane.querySelector(".rr-title").hidden = runs.length < 2;
       pane.querySelector("canvas").setAttribute("aria-label", runs.length < 2 ? options.alt : `${run.title}: ${options.alt}`);
       panes.append(pane);
     }
