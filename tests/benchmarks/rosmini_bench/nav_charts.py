@@ -9,11 +9,12 @@ from pathlib import Path
 
 from assets.generate.drawings.sheet import Sheet
 from rosmini.viz.layout import Rect
+from rosmini.viz.metrics import text_width
 from rosmini.viz.style import LABEL_SIZE
 
 DRAWINGS = Path(__file__).resolve().parents[3] / "book" / "static" / "drawings"
 WIDTH, LABELS, VALUES = 600.0, 230.0, 70.0
-"""Of a chart, of the names at its left and of the values at its right [CSS px]."""
+"""Width of a chart, least width of the labels at its left, and width of the values at its right [CSS px]."""
 HEIGHT, HEAD = 22.0, 20.0
 """Of a line, and of the axis above the first one [CSS px]."""
 
@@ -40,7 +41,8 @@ def chart(
 ) -> str:
     """Draw a chart as SVG. The axis reaches from the first of `ticks` to the last; values outside lie on its ends."""
     sheet = Sheet(WIDTH, HEAD + HEIGHT * len(marks) + 6)
-    left, right = LABELS + 8, WIDTH - VALUES - 8
+    labels = max([LABELS, *(4 + text_width(mark.label, LABEL_SIZE) for mark in marks)])
+    left, right = round(labels) + 8, WIDTH - VALUES - 8
 
     def x(value: float) -> float:
         share = (value - ticks[0]) / (ticks[-1] - ticks[0])
