@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,20 +25,29 @@ from .trials import Trial
 if TYPE_CHECKING:
     from rosmini.core.graph import Graph
 
-COURIER = """
+Pose = tuple[float, float, float]
+
+
+def navigation(start: Pose, settings: Mapping[str, Any], node: str = "move_base", **arguments: Any) -> str:
+    """Return the text of a launch file with the Navigation Stack in a simulation.
+
+    Args:
+        start: the true pose at which the robot starts.
+        settings: parameters of `node`, which replace those of the stack.
+        node: the name of a node of the stack.
+        arguments: other arguments of navigation.launch.
+
+    """
+    given = {**dict(zip(("x", "y", "yaw"), start, strict=True)), **arguments}
+    tags = "".join(f'<arg name="{name}" value="{value}"/>' for name, value in given.items())
+    return f"""
 <launch>
-  <include file="$(find rosmini_sim)/launch/navigation.launch">
-    <arg name="x" value="{x}"/>
-    <arg name="y" value="{y}"/>
-    <arg name="yaw" value="{yaw}"/>
-  </include>
-  <rosparam ns="move_base">
-{settings}
+  <include file="$(find rosmini_sim)/launch/navigation.launch">{tags}</include>
+  <rosparam ns="{node}">
+{yaml.safe_dump(dict(settings))}
   </rosparam>
 </launch>
 """
-
-Pose = tuple[float, float, float]
 
 
 def launched(text: str, graph: Graph, settle: float = 0.1) -> Launch:
@@ -185,6 +195,4 @@ def courier(answer: Any, name: str, start: Pose, *, before: Script | None = None
 
     """
     settings = settings_of(answer, name)
-    x, y, yaw = start
-    text = COURIER.format(x=x, y=y, yaw=yaw, settings=yaml.safe_dump(settings))
-    return Drive(text, before=before), settings
+    return Drive(navigation(start, settings), before=before), settings

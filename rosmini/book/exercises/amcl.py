@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from rosmini.book.checks import Script, exercise, expect
-from rosmini.book.drives import Drive
+from rosmini.book.drives import Drive, navigation
 from rosmini.book.trials import TurtleTrial
 from rosmini.msgs.geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
 
@@ -23,24 +23,17 @@ LOST = (1.2, -0.9, 0.0)
 CHILDS_ROOM = (-2.2, -1.2)
 SURE_ENOUGH = 0.2
 """Standard deviation of x and y below which that robot may drive [m]."""
-FINDS = """{min_particles: 100, max_particles: 10000, kld_err: 0.01, odom_model_type: diff-corrected, odom_alpha1: 0.1,
-  odom_alpha2: 0.1, odom_alpha3: 0.1, odom_alpha4: 0.1, laser_model_type: likelihood_field_prob, laser_z_hit: 0.95,
-  laser_z_rand: 0.05, laser_sigma_hit: 0.8, update_min_d: 0.06, update_min_a: 0.06, resample_interval: 8}"""
-MORNING = """
-<launch>
-  <include file="$(find rosmini_sim)/launch/navigation.launch">
-    <arg name="localization" value="amcl"/>
-    <arg name="x" value="{x}"/>
-    <arg name="y" value="{y}"/>
-    <arg name="yaw" value="{yaw}"/>
-    <arg name="initial_pose_x" value="-3.0"/>
-    <arg name="initial_pose_y" value="1.0"/>
-    <arg name="initial_pose_a" value="0.0"/>
-  </include>
-  <rosparam ns="amcl">{settings}</rosparam>
-</launch>
-"""
-"""A robot that is not where amcl begins."""
+FINDS = {
+    "min_particles": 100, "max_particles": 10000, "kld_err": 0.01, "odom_model_type": "diff-corrected",
+    "odom_alpha1": 0.1, "odom_alpha2": 0.1, "odom_alpha3": 0.1, "odom_alpha4": 0.1,
+    "laser_model_type": "likelihood_field_prob", "laser_z_hit": 0.95, "laser_z_rand": 0.05, "laser_sigma_hit": 0.8,
+    "update_min_d": 0.06, "update_min_a": 0.06, "resample_interval": 8,
+}  # fmt: skip
+"""Parameters with which amcl finds lost robots."""
+ELSEWHERE: dict[str, Any] = {
+    "localization": "amcl", "initial_pose_x": -3.0, "initial_pose_y": 1.0, "initial_pose_a": 0.0,
+}  # fmt: skip
+"""Arguments with which amcl begins where the robot is not."""
 
 
 @exercise("systematic", praise="With one random number, each particle gets its share, give or take one.")
@@ -95,7 +88,7 @@ def here_i_am(answer: Script) -> Any:
             )
             _check_pose(heard[-1], (x, y, yaw))
     x, y, yaw = STATION
-    with Drive(MORNING.format(x=x, y=y, yaw=yaw, settings="{}")) as drive:
+    with Drive(navigation(STATION, {}, **ELSEWHERE)) as drive:
         drive.start(answer, f"_x:={x}", f"_y:={y}", f"_yaw:={yaw}")
         drive.run(5.0)
         drive.expect_arrival((-1.0, 1.0, 3.14), 40.0, "publish the pose once: amcl begins there again each time")
@@ -138,8 +131,7 @@ def _check_pose(message: Any, wanted: tuple[float, float, float]) -> None:
 @exercise("find_yourself", gaps=2, praise="It finds itself, and then it delivers.")
 def find_yourself(answer: Script) -> Any:
     """A script that calls global_localization, wanders until amcl is sure, and sends the goal once."""
-    x, y, yaw = LOST
-    with Drive(MORNING.format(x=x, y=y, yaw=yaw, settings=FINDS)) as drive:
+    with Drive(navigation(LOST, FINDS, "amcl", **ELSEWHERE)) as drive:
         lost: list[float] = []
         sure: list[float] = []
         goals: list[float] = []

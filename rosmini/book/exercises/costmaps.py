@@ -8,10 +8,9 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
-import yaml
 
 from rosmini.book.checks import Script, Wrong, exercise, expect, expect_type
-from rosmini.book.drives import Drive, settings_of
+from rosmini.book.drives import Drive, navigation, settings_of
 from rosmini.book.trials import Trial
 from rosmini.core.errors import RosminiError
 from rosmini.core.maps import GridMap, save_map
@@ -56,21 +55,6 @@ MIDDLE_M = 0.12
 RADII_M = (0.105, 0.2)
 """Inscribed radii that suit a Burger: half its width, and a little more than the distance of its corners."""
 
-FLAT = """
-<launch>
-  <include file="$(find rosmini_sim)/launch/navigation.launch">
-    <arg name="world" value="{map}"/>
-    <arg name="map_file" value="{map}"/>
-    <arg name="x" value="{x}"/>
-    <arg name="y" value="{y}"/>
-    <arg name="yaw" value="{yaw}"/>
-  </include>
-  <rosparam ns="move_base">
-{settings}
-  </rosparam>
-</launch>
-"""
-
 
 def _flat() -> GridMap:
     """Return two rooms and a wall with a door, and with a gap on the line from start to goal."""
@@ -88,8 +72,7 @@ def door(answer: Any) -> Any:
     settings = settings_of(answer, "settings")
     with TemporaryDirectory() as folder:
         path, _ = save_map(_flat(), Path(folder) / "flat")
-        x, y, yaw = START
-        drive = Drive(FLAT.format(map=path, x=x, y=y, yaw=yaw, settings=yaml.safe_dump(settings)))
+        drive = Drive(navigation(START, settings, world=path, map_file=path))
     with drive:
         radius = drive.graph.nodes["/move_base"].program.global_costmap.inscribed_radius
         expect(

@@ -7,7 +7,7 @@ from heapq import heappop, heappush
 from typing import Any
 
 from rosmini.book.checks import Script, exercise, expect, expect_number, expect_type
-from rosmini.book.drives import COURIER, Drive, courier
+from rosmini.book.drives import Drive, courier, navigation
 from rosmini.core.time import Time
 from rosmini.msgs.geometry_msgs.msg import PoseArray, PoseStamped
 from rosmini.msgs.nav_msgs.msg import Path as PlannedPath
@@ -158,9 +158,8 @@ DELIVERIES: tuple[tuple[tuple[Point, ...], Point | None], ...] = (
 @exercise("first_delivery", praise="The node compares plans, not straight lines.")
 def first_delivery(answer: Script) -> Any:
     """A node that sends the robot to the recipient with the shortest plan."""
-    x, y, yaw = START
     for places, wanted in DELIVERIES:
-        with Drive(COURIER.format(x=x, y=y, yaw=yaw, settings="{}")) as drive:
+        with Drive(navigation(START, {})) as drive:
             goals: list[Any] = []
             desk = drive.graph.node("office")
             desk.subscriber("/move_base_simple/goal", PoseStamped, goals.append)

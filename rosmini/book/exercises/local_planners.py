@@ -6,10 +6,9 @@ import math
 from typing import Any
 
 import numpy as np
-import yaml
 
 from rosmini.book.checks import Script, exercise, expect, expect_number
-from rosmini.book.drives import Drive, settings_of
+from rosmini.book.drives import Drive, navigation, settings_of
 from rosmini.book.trials import Trial
 
 # ---- manners: a critic that keeps away from a person ----
@@ -74,25 +73,12 @@ def wander(answer: Script) -> Any:
 
 # ---- past_the_crate: two wrong numbers ----
 
-LAUNCH = """
-<launch>
-  <include file="$(find rosmini_sim)/launch/navigation.launch">
-    <arg name="world" value="room"/>
-    <arg name="x" value="0.1"/>
-    <arg name="y" value="1.4"/>
-  </include>
-  <rosparam ns="move_base">
-{settings}
-  </rosparam>
-</launch>
-"""
-
 
 @exercise("past_the_crate", praise="It looks far enough ahead, and passes the crate.")
 def past_the_crate(answer: Any) -> Any:
     """Settings of the local planner with which the robot passes the crate."""
     settings = settings_of(answer, "settings")
-    with Drive(LAUNCH.format(settings=yaml.safe_dump(settings))) as drive:
+    with Drive(navigation((0.1, 1.4, 0.0), settings, world="room")) as drive:
         drive.expect_arrival(
             (2.05, 1.2, 0.0),
             20.0,

@@ -5,10 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import yaml
-
 from rosmini.book.checks import Script, exercise, expect, expect_type
-from rosmini.book.drives import COURIER, Drive, settings_of
+from rosmini.book.drives import Drive, navigation, settings_of
 from rosmini.core.actionlib import Status
 from rosmini.msgs.geometry_msgs.msg import PoseStamped
 from rosmini.msgs.move_base_msgs.msg import MoveBaseActionGoal, MoveBaseActionResult, RecoveryStatus
@@ -24,8 +22,7 @@ class Watched(Drive):
     """The Navigation Stack in the house, and what passes through the action `move_base`."""
 
     def __init__(self, start: tuple[float, float, float], settings: dict[str, Any]) -> None:
-        x, y, yaw = start
-        super().__init__(COURIER.format(x=x, y=y, yaw=yaw, settings=yaml.safe_dump(settings)))
+        super().__init__(navigation(start, settings))
         self.clerk = self.graph.node("clerk")
         self.goals: list[Any] = []
         """The goals, as poses."""

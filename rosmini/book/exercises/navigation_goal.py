@@ -6,23 +6,13 @@ import math
 from typing import Any
 
 from rosmini.book.checks import Script, Wrong, exercise, expect
-from rosmini.book.drives import Drive
+from rosmini.book.drives import Drive, navigation
 from rosmini.msgs.geometry_msgs.msg import PointStamped
 from rosmini.msgs.move_base_msgs.msg import MoveBaseActionGoal, MoveBaseActionResult
 from rosmini.msgs.std_msgs.msg import Empty
 from rosmini.navigation.nav_core import BadGoal
 from rosmini.navigation.nav_core.poses import checked_goal
 
-HOUSE = """
-<launch>
-  <include file="$(find rosmini_sim)/launch/navigation.launch">
-    <arg name="localization" value="{localization}"/>
-    <arg name="x" value="{x}"/>
-    <arg name="y" value="{y}"/>
-    <arg name="yaw" value="{yaw}"/>
-  </include>
-</launch>
-"""
 SUCCEEDED, PREEMPTED = 3, 2
 
 Point = tuple[float, float]
@@ -33,8 +23,7 @@ class Errands(Drive):
     """A robot in the house, and a list of the goals that move_base receives and of their ends."""
 
     def __init__(self, start: Pose, localization: str = "fake_localization") -> None:
-        x, y, yaw = start
-        super().__init__(HOUSE.format(localization=localization, x=x, y=y, yaw=yaw))
+        super().__init__(navigation(start, {}, localization=localization))
         self.goals: list[Any] = []
         """The poses of the goals."""
         self.begun: list[float] = []
