@@ -23,6 +23,7 @@ from rosmini.core.tf.messages import set_pose
 from rosmini.core.tf.rigid import from_yaw
 from rosmini.core.time import Duration, Time
 from rosmini.msgs import message_class, service_class
+from rosmini.msgs.template import template
 from rosmini.navigation.kernels import prepare
 from rosmini.navigation.nav_core.poses import planar_pose, planar_transform
 
@@ -52,6 +53,9 @@ COVARIANCE_INDICES = ((0, 0), (0, 1), (1, 0), (1, 1))
 """Indices of x and y in a six by six covariance; that of the heading is (5, 5)."""
 
 DEVIATION_AXES = ("x", "y", "yaw")
+_POSE = template(
+    message_class("geometry_msgs/Pose")(), "position.x", "position.y", "orientation.z", "orientation.w"
+)  # of a particle
 
 
 class Amcl:
@@ -420,10 +424,7 @@ def cloud(particles: NDArray[np.float64], frame: str, stamp: Time) -> Any:
     """Return particles (n, 3) in `frame` as a `geometry_msgs/PoseArray`."""
     message = message_class("geometry_msgs/PoseArray")()
     message.header.frame_id, message.header.stamp = frame, stamp
-    pose = message_class("geometry_msgs/Pose")
-    for x, y, yaw in particles.tolist():
-        message.poses.append(pose())
-        set_pose(message.poses[-1], from_yaw(x, y, yaw))
+    message.poses = [_POSE(x, y, math.sin(yaw / 2), math.cos(yaw / 2)) for x, y, yaw in particles.tolist()]
     return message
 
 
