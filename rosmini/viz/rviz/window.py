@@ -98,7 +98,7 @@ class RVizWindow(Panel):
         self._is_pressed = self._is_dragged = False
         self._pointer = np.array(self._size) / 2
         self._said = self.tools.current.hint
-        self._fits_until_ns = self.scene.context.now_ns + SETTLES_NS
+        self._fits_until_ns = self.scene.context.now_ns + SETTLES_NS if self.scene.view is None else 0
 
     def close(self) -> None:
         """Close the window. Calling it again has no effect."""
@@ -112,7 +112,7 @@ class RVizWindow(Panel):
         now_ns = self.scene.context.now_ns
         if self._suggestions is not None and self._suggestions.add_new() and self._fits_until_ns:
             self._fits_until_ns = now_ns + SETTLES_NS
-        if self._projection is None or now_ns < self._fits_until_ns:
+        if self.scene.view is None or now_ns < self._fits_until_ns:
             self.fit()
         self._layers = self.scene.update()
         if (
@@ -249,10 +249,7 @@ class RVizWindow(Panel):
                 self._numbered[int(key[1])].enabled = value
 
     def fit(self) -> None:
-        """Look from above at the whole scene, unless the file specifies another view."""
-        view = self.scene.view
-        if view is not None and not isinstance(view, TopDownOrtho):
-            return
+        """Look from above at the whole scene."""
         self._fit_all(TopDownOrtho())
 
     def _fit_all(self, made: ViewController | None = None) -> None:

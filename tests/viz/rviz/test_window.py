@@ -14,6 +14,8 @@ from rosmini.ros.interactive_markers import InteractiveMarkerServer
 from rosmini.ros.launch import roslaunch
 from rosmini.viz import ViewError
 from rosmini.viz.rqt.parts import Drawing, Rows
+from rosmini.viz.rviz.config import Config
+from rosmini.viz.rviz.views import PIXELS
 from rosmini.viz.rviz.window import RVizWindow
 
 
@@ -191,6 +193,17 @@ def test_the_view_follows_what_comes_until_a_hand_is_on_it(graph):
     window.set("closer")
     graph.run(0.5)
     assert scale(window) == pytest.approx(1.25 * after)
+    window.close()
+
+
+def test_the_view_of_a_file_is_kept(graph):
+    view = {"Class": "rviz/TopDownOrtho", "Scale": 90.0, "X": 2.0, "Y": 1.0}
+    config = Config()
+    window = RVizWindow(graph, config.with_parts([], config.options(), view), fixed_frame="map")
+    before = scale(window), pixel(window, 2.0, 1.0)
+    graph.run(0.5)
+    assert (scale(window), pixel(window, 2.0, 1.0)) == before
+    assert before[0] == pytest.approx(90.0 * window._size[0] / PIXELS)
     window.close()
 
 
