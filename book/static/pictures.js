@@ -8,11 +8,13 @@
 
   const LEGIBLE = 9; // CSS pixels: text below this size is too small
   const COMFORTABLE = 12; // CSS pixels: minimum text size in the larger view
+  const PLOTTED = 13.9; // pixels: matplotlib's default text, 10 pt at 100 dots per inch
 
   const buttons = new Map(); // picture -> its button
 
   /* The size of the smallest text of a picture as it is shown [CSS px]; Infinity without text. */
   function smallestText(svg) {
+    if (svg instanceof HTMLImageElement) return (PLOTTED * svg.getBoundingClientRect().width) / svg.naturalWidth;
     let least = Infinity;
     for (const text of svg.querySelectorAll("text, tspan")) {
       const matrix = text.getScreenCTM();
@@ -87,7 +89,8 @@
   });
   document.body.append(dialog);
   // A script soon replaces the still picture of a player.
-  for (const svg of document.querySelectorAll(".bd-article .rosmini-figure:not([data-mounted]) svg[role=img]")) {
+  const drawn = '.rosmini-figure:not([data-mounted]) svg[role=img], .cell_output img[src$=".png"]';
+  for (const svg of document.querySelectorAll(`.bd-article :is(${drawn})`)) {
     if (!svg.parentElement.closest("svg")) sizes.observe(svg);
   }
 })();

@@ -151,11 +151,12 @@ def test_the_watcher_sees_what_it_is_there_to_see(chromium, watch, tmp_path, htm
     page.close()
 
 
-SMALLEST_TEXT = """(svg) => Math.min(...Array.from(svg.querySelectorAll("text, tspan"), (text) => {
+SMALLEST_TEXT = """(picture) => picture.naturalWidth ? 13.9 * picture.width / picture.naturalWidth  // of matplotlib
+: Math.min(...Array.from(picture.querySelectorAll("text, tspan"), (text) => {
   const {a, b, c, d} = text.getScreenCTM() ?? {};
   return parseFloat(getComputedStyle(text).fontSize) * Math.sqrt(Math.abs(a * d - b * c)) || Infinity;
 }))"""
-UNREADABLE = f"""() => [...document.querySelectorAll(".bd-article svg[role=img]")].filter(
+UNREADABLE = f"""() => [...document.querySelectorAll(".bd-article :is(svg[role=img], .cell_output img)")].filter(
   (svg) => svg.checkVisibility() && !svg.closest("[data-mounted]") && ({SMALLEST_TEXT})(svg) < 9
     && !svg.nextElementSibling?.checkVisibility()).length"""
 """How many pictures have text below 9 px and no button."""
@@ -180,9 +181,9 @@ def test_pictures_with_text_below_nine_pixels_open_in_a_larger_view(book_html, p
         assert phone.evaluate(UNREADABLE) == 0, path
         for button in phone.locator("button.larger:visible").all():
             button.press("Enter")
-            assert phone.locator("dialog svg").first.evaluate(SMALLEST_TEXT) >= 9, path
+            assert phone.locator(".larger-view :is(svg, img)").first.evaluate(SMALLEST_TEXT) >= 9, path
             phone.keyboard.press("Escape")
-            phone.wait_for_function("document.activeElement.matches('svg + button.larger')")
+            phone.wait_for_function("document.activeElement.matches(':is(svg, img) + button.larger')")
             opened += 1
     assert opened
 
