@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
+from copy import copy
 from functools import partial
 from typing import Any, NamedTuple, Protocol
 
@@ -22,6 +23,8 @@ MAX_MOMENTS = 240
 """Maximum number of moments of a layer: 2 Hz for two minutes."""
 SAME = 1e-6
 """Tolerance of equal poses [m, rad]."""
+NEAR = 0.3
+"""Maximum error of the first estimate of amcl [m, rad]."""
 
 
 class NothingToSee(ViewError):
@@ -186,19 +189,25 @@ def _recorded_frames(log: Log, frame: str | None, shown: list[str]) -> RecordedF
 
 
 def _align_map(frames: RecordedFrames, times: Any, start: Pose) -> None:
-    """Move a map that begins at the robot, such as that of SLAM, to the robot's true pose; leave other maps in place.
+    """Move a map that begins where the odometry begins, such as that of SLAM, to this place; leave others in place.
 
-    A map begins at the robot if its first transform to odometry is the identity, or if there is no map.
+    Such a map is recognised by its first transform to odometry. It is the identity if SLAM draws the map, or if there
+    is no map. On a map that SLAM has saved, amcl estimates it, and the pose in the map differs from the true one.
     """
     bases = frames.bases()
     if not bases or frames.fixed not in frames.tree:
         return
     known, poses = frames.track(bases[0], times)
-    if not len(known):
-        return
     _, odom = frames.track("odom", known[:1])
-    if frames.fixed != "odom" and not (len(odom) and np.abs(odom).max() < SAME):
+    if not len(odom):
         return
+    off = np.abs(odom).max()
+    if off >= SAME:
+        if off > NEAR or np.hypot(*(poses[0, :2] - start[:2])) < NEAR:
+            return
+        odometry = copy(frames)
+        odometry.fixed = "odom"
+        _, poses = odometry.track(bases[0], times)  # known earlier than the pose in the map
     x, y, heading = poses[0].tolist()
     frames.offset = compose(start, inverse((x, y, heading)))
 

@@ -342,7 +342,16 @@ def test_odometry_of_a_robot_with_a_prefix_is_not_drawn_twice():
     assert "odom" not in view.text.partition("recorded")[2]
 
 
-def test_a_map_of_slam_is_laid_where_the_robot_started():
+@pytest.mark.parametrize(
+    ("first", "map_at"),
+    [
+        pytest.param((0.0, 0.0, 0.0), (1.0, 0.5), id="SLAM"),
+        pytest.param((0.02, -0.05, 0.01), (1.0, 0.5), id="amcl on a map that SLAM has saved"),
+        pytest.param((1.02, 0.45, math.pi / 2), (0.0, 0.0), id="amcl on a map of the world"),
+        pytest.param((3.0, 2.0, 0.0), (0.0, 0.0), id="amcl that is lost"),
+    ],
+)
+def test_a_map_is_laid_on_the_world(first, map_at):
     graph = Graph()
     simulator = Simulator(graph.node("simulator"))
     simulator.place((1.0, 0.5, math.pi / 2))
@@ -354,14 +363,13 @@ def test_a_map_of_slam_is_laid_where_the_robot_started():
         graph.run(0.1)
         pose = simulator.odometry
         base = transform("odom", "base_footprint", graph.now().to_sec(), *pose)
-        here = transform("map", "odom", graph.now().to_sec(), 0.0)
+        here = transform("map", "odom", graph.now().to_sec(), *first)
         sender.publish(made("tf2_msgs/TFMessage", transforms=[*base.transforms, *here.transforms]))
-    start = simulator.odometry
-    maps.publish(a_map([[0, 100]], origin=start[:2]))
+    maps.publish(a_map([[0, 100]]))
     graph.run(0.5)
     view = recorder.recording().replay()
     place = columns(view.data["layers"][0]["places"], 8)[0]
-    assert place[3:5] / 1000 == pytest.approx((1.0, 0.5), abs=0.01)
+    assert place[3:5] / 1000 == pytest.approx(map_at, abs=0.01)
 
 
 def test_an_mcap_file_is_played_as_the_bag_it_was_made_from(bag, tmp_path):
