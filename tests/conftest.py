@@ -47,7 +47,7 @@ AT_ANY_SPEED: Any = {
     "deadline": None,
     "suppress_health_check": [HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
 }
-settings.register_profile("commit", max_examples=25, derandomize=True, **AT_ANY_SPEED)
+settings.register_profile("commit", max_examples=10, derandomize=True, **AT_ANY_SPEED)
 settings.register_profile("nightly", max_examples=500, **AT_ANY_SPEED)
 settings.load_profile("commit")
 
@@ -138,11 +138,13 @@ def left_for_nightly(config: pytest.Config, item: pytest.Item) -> bool:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave tests for the night; mark those that have to do with processes, signals or threads."""
-    left = [item for item in items if left_for_nightly(config, item)]
+    """Leave tests for the night; for `-m processes` mark those that have to do with processes, signals or threads."""
+    left = {item for item in items if left_for_nightly(config, item)}
     if left:
-        config.hook.pytest_deselected(items=left)
-        items[:] = [item for item in items if item not in set(left)]
+        config.hook.pytest_deselected(items=[*left])
+        items[:] = [item for item in items if item not in left]
+    if "processes" not in config.getoption("markexpr"):
+        return
     known: dict[Any, bool] = {}
     for item in items:
         if isinstance(item, pytest.Function):

@@ -6,7 +6,6 @@ import importlib
 import operator
 import os
 import pkgutil
-import sys
 import types
 
 import pytest
@@ -15,6 +14,8 @@ import rosmini.book.exercises
 from rosmini.book import checks
 from rosmini.book.checks import Exercise, NoAnswer, Script, Status, UnknownExercise, check, exercise, expect, is_stub
 from rosmini.msgs.importer import forget
+
+from ..conftest import nightly
 
 
 @exercise("wheels", praise="Six wheels it is.")
@@ -234,29 +235,21 @@ def package(found, tmp_path, monkeypatch):
 each_exercise = pytest.mark.parametrize("found", list(all_exercises()), ids=lambda found: found.name)
 
 
-def drives(found):
-    """Whether its module starts the Navigation Stack, so that a check may take some seconds for each answer."""
-    return any(hasattr(sys.modules[found.examine.__module__], name) for name in ("Drive", "Launched"))
-
-
-@pytest.mark.usefixtures("package")
-@each_exercise
-def test_every_check_refuses_mistakes(found):
-    """All; of scripts and files that drive with the Navigation Stack the first two, and the others each night."""
-    assert mistakes_of(found)
+def wrong_answers(found, *, at_night):
+    """The first two scripts or files, which are run, and all answers of other kinds; at night the rest."""
     for number, mistake in enumerate(mistakes_of(found)):
         answer = mistake()
-        if number < 2 or callable(answer) or not drives(found):
-            verdict = found.grade(answer)
-            assert verdict.status is Status.WRONG, verdict.text
+        if at_night == (number >= 2 and isinstance(answer, Script | str)):
+            yield answer
 
 
-@pytest.mark.nightly
 @pytest.mark.usefixtures("package")
-@pytest.mark.parametrize("found", filter(drives, all_exercises()), ids=lambda found: found.name)
-def test_checks_that_drive_refuse_every_mistake(found):
-    for mistake in mistakes_of(found)[2:]:
-        verdict = found.grade(mistake())
+@pytest.mark.parametrize("at_night", [False, *nightly(True)])
+@each_exercise
+def test_every_check_refuses_mistakes(found, at_night):
+    assert mistakes_of(found)
+    for answer in wrong_answers(found, at_night=at_night):
+        verdict = found.grade(answer)
         assert verdict.status is Status.WRONG, verdict.text
 
 

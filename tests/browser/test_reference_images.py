@@ -20,7 +20,6 @@ from PIL import Image
 from rosmini.viz import style
 from rosmini.viz.embed import STATIC
 
-from ..conftest import nightly
 from .kinds import KINDS
 from .perception import cells, difference, why
 
@@ -128,14 +127,15 @@ def test_it_looks_as_it_did(show, kind, theme):
     assert why(seen[1], words, WORDS) is None
 
 
-one_kind = pytest.mark.parametrize("kind", ["world", *nightly(*(kind for kind in KINDS if kind != "world"))])
+each_kind = pytest.mark.parametrize("kind", KINDS)
 
 
 def test_each_reference_is_of_a_picture():
     assert {path.stem for path in REFERENCES.iterdir()} == {f"{kind}-{theme}" for kind, theme in CASES}
 
 
-@one_kind
+@pytest.mark.nightly
+@each_kind
 def test_another_rasteriser_is_no_difference(show, kind):
     """Letters without hinting, at places between pixels."""
     shown = show(kind)
@@ -145,7 +145,8 @@ def test_another_rasteriser_is_no_difference(show, kind):
     assert why(shown.words(), words, WORDS) is None
 
 
-@one_kind
+@pytest.mark.nightly
+@each_kind
 def test_a_word_a_shape_or_a_colour_that_goes_missing_is_seen(show, kind):
     shown = show(kind)
     before = {"shapes": shown.shapes(), "words": shown.words()}

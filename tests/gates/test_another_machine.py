@@ -25,7 +25,7 @@ from ..conftest import nightly
 
 ROOT = Path(__file__).resolve().parents[2]
 CHAPTERS = sorted((ROOT / "notebooks").rglob("*.ipynb"))
-EACH_COMMIT = {"10_nodes_and_master", "10_turtlesim_nodes"}
+EACH_COMMIT = {"10_nodes_and_master"}
 """The other chapters run at night. So does this module for a chapter that somebody names: `pytest FILE -k 60_amcl`."""
 
 IS_X86 = platform.machine().lower() in ("x86_64", "amd64")

@@ -17,6 +17,7 @@ from rosmini.core.graph.graph import Graph
 from rosmini.ros import rospy
 from rosmini.ros.scripts import ScriptSpec, run_scripts
 
+from ..conftest import nightly
 from ..processes import run
 from .conftest import SYSTEM_PYTHON
 
@@ -72,7 +73,7 @@ def differences(one: Any, other: Any, path: tuple[str, ...] = ()) -> dict[tuple[
 
 
 @pytest.mark.ros
-@pytest.mark.parametrize("simulated", [True, False], ids=["simulated", "wall"])
+@pytest.mark.parametrize("simulated", [True, *nightly(False)], ids=["simulated", "wall"])
 def test_ours_does_what_rospy_does(real: tuple[Path, dict[str, Any]], simulated: bool) -> None:
     peer, theirs = real
     assert len(theirs) > 10

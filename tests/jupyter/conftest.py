@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 import pytest
 from jupyter_client import KernelManager
 
+from ..conftest import nightly
 from ..processes import PATIENCE
 
 
@@ -179,7 +180,7 @@ def shared_kernel():
         yield kernel
 
 
-@pytest.fixture(params=[True, False], ids=["simulated", "wall"])
+@pytest.fixture(params=[True, *nightly(False)], ids=["simulated", "wall"])
 def kernel(request, shared_kernel):
     """The module's kernel with a new graph: `talker`, `listener`, `pub`, `add`, and what was `heard`."""
     shared_kernel.ok(GRAPH.replace("SIMULATED", str(request.param)))

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from .harness import Peer
 
 BOTH = ["ours", "real"]
-MASTERS = {"test_graph": BOTH, "test_our_tools": ["real"]}
+MASTERS = {"test_our_tools": ["real"]}
 """Under whose Masters a module's tests run with each commit: ours by default. At night all run under both. Nodes of
 both kinds take part; ROS's tools run against our Master, and ours against the real one."""
 

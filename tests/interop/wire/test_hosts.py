@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from ...conftest import nightly
 from ...processes import run, wait_until
 from ..conftest import need_ros
 from .harness import ROSMINI, Stage
@@ -114,7 +115,7 @@ def test_one_teleop_drives_two_turtles_as_chapter_63_shows(site: Site, hosts: Ho
         child.interrupt()
 
 
-@pytest.mark.parametrize("kind", ["ours", "real"])
+@pytest.mark.parametrize("kind", ["ours", *nightly("real")])
 def test_an_address_that_others_do_not_reach_is_explained(site: Site, hosts: Hosts, watcher: Peer, kind: str) -> None:
     """The classic: all is listed, and nothing arrives. Our subscriber, our tools and our Master say why."""
     for number, wrong in enumerate(hosts.wrong):

@@ -46,7 +46,7 @@ class Ran:
         return self.result.status
 
 
-IN_BOTH_CLOCKS = {"test_run", "test_handle", "test_rospy_scripts", "test_stdin"}
+IN_BOTH_CLOCKS = {"test_run", "test_rospy_scripts", "test_stdin"}
 """The modules whose tests run in both clocks with each commit; at night all do."""
 
 

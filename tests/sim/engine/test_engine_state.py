@@ -55,7 +55,7 @@ def picture(engine):
     return (engine.now, robots, [(o.name, o.pose) for o in engine.obstacles()], scans)
 
 
-@settings(max_examples=4)
+@settings(max_examples=2)
 @given(st.floats(0.0, 4.0), st.integers(0, 1000))
 def test_the_same_happens_from_a_state_on(seconds, seed):
     engine = make()

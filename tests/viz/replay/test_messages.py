@@ -303,14 +303,14 @@ def test_clocks_that_jump_back_break_nothing(bag):
     assert replay(run).html
 
 
-def test_a_hundred_thousand_messages_become_a_small_page(bag):
+def test_twenty_thousand_messages_become_a_small_page(bag):
     one = path([(0.0, 0.0), (1.0, 1.0)])
-    many = ((i / 1000, "/plan", one) for i in range(100_000))
+    many = ((i / 200, "/plan", one) for i in range(20_000))
     run = run_of(BagLog(bag(*many)))
     plans = layer(run, "/plan")
-    assert plans.found == 100_000
+    assert plans.found == 20_000
     assert plans.count <= 260
-    assert plans.times[-1] == pytest.approx(START + 99.999), "the last one is there"
+    assert plans.times[-1] == pytest.approx(START + 99.995), "the last one is there"
     assert len(json.dumps(run.data())) < 20_000
 
 
