@@ -241,7 +241,7 @@ def localise(answer: Script) -> Any:
         expect(
             off < 0.02,
             f"In map the robot is {off:.2f} m from where it really is.",
-            "look up the odometry at truth.header.stamp, and mind the order of the two transforms",
+            "look up the odometry at truth.header.stamp, and check the order of the two transforms",
         )
         trial.expect_no_errors()
         return trial.view()

@@ -208,14 +208,14 @@ How to read the table:
 - **Reached**: `move_base` reported `SUCCEEDED`, and the true pose was within the goal tolerance. With `amcl`, which has
   an error of its own, 0.25 m and 0.3 rad are allowed.
 - **95% interval**: Wilson's interval for the share. Two rows whose intervals overlap do not differ for certain.
-- **Contacts**: the number of goals on whose way the robot drove into something.
+- **Contacts**: the number of goals on the way to which the robot hit something.
 - **Length**: the driven path divided by the shortest path that keeps 0.15 m from everything in the map. **Time**: the
   time divided by that of the shortest path at full speed. Each cell shows the median of the reached goals, and in
   brackets the 95th percentile.
 - **Off**: the median of the true distance from the goal at the end.
 
-The parameters of `careful.yaml` were chosen while we looked at the failures of seed 7. Seed 23 was driven afterwards,
-and nothing was changed for it. Rows of fewer than {LEAST} goals are only in the file.
+The parameters of `careful.yaml` were chosen while we looked at the failures of seed 7. We ran seed 23 afterwards,
+and changed nothing for it. Rows of fewer than {LEAST} goals are only in the file.
 `PYTHONPATH=tests/benchmarks uv run python -m rosmini_bench.nav_study FILE house=0-199` drives more.
 """
 
@@ -274,8 +274,8 @@ chapter {doc}`../../notebooks/7_navigation/95_tune_and_fix` shows how to find an
 with what `careful.yaml` changes:
 
 - **Footprint.** The origin of a burger is near its front, so the inscribed radius of its footprint is only 5 cm.
-  A global plan keeps only this distance, and leads through places where the sides have no room, such as between the
-  legs of a chair. The local planner checks the whole footprint and refuses to drive there. *Careful* plans for a disc.
+  A global plan keeps only this distance, and leads through places too narrow for its sides, such as between the legs
+  of a chair. The local planner checks the whole footprint and refuses to drive there. *Careful* plans for a disc.
 - **No way back.** A robot whose front is 3 cm from an obstacle cannot drive forward, and cannot turn either. *Careful*
   allows -0.1 m/s, as ROBOTIS's files do.
 - **Walking people.** They came so close that their cells overlapped the footprint, and they waited for the robot,
@@ -288,8 +288,8 @@ with what `careful.yaml` changes:
   between two recoveries, rotates only once, and clears the costmap more often.
 - **Cells.** In a costmap with cells of 5 cm, an outline may be 5 cm too wide. Noise then marks a cell under the robot,
   and every way out is refused. *Careful* uses 2.5 cm in the local costmap.
-- **First pose.** `amcl` is told the pose to about 0.5 m. In the entrance of the house the scan fits nearly as well
-  0.8 m further on, and the published mean lies between the two.
+- **First pose.** `amcl` gets the first pose to within about 0.5 m. In the entrance of the house the scan fits nearly
+  as well 0.8 m further on, and the published mean lies between the two.
 - **Frontiers.** explore_lite measures progress in a straight line, so it gives up a frontier while the robot drives
   around a wall to reach it.
 - **Not explained.** In the maze, two robots count as oscillating although their way is free. In the office, a few
