@@ -251,8 +251,9 @@ In the house and the maze {full} runs saw {good} or more, and {ended} ended by t
 
 In the office both explorers leave rooms out: the best run saw {most}, a quarter saw less than {quarter}, and the worst
 {least}. Three rooms have doors that open and shut. A robot that passes a shut door maps a wall there, and a wall is not
-a frontier. Walking people in a doorway have the same effect. Neither explorer looks at a wall a second time, and nor do
-the originals.
+a frontier. The wall often stays in the map when the door opens: gmapping ignores a beam that hits nothing, and through
+an open door many beams hit nothing, because the room is deeper than the laser's range. Walking people in a doorway
+have the same effect as a shut door. Neither explorer looks at a wall a second time, and nor do the originals.
 """
 
 CROSSING = """## Robots that cross one another's paths
