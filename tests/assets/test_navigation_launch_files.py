@@ -143,6 +143,13 @@ def test_a_map_and_no_way_back_are_arguments(model):
     assert of_many.settings["/tb3_7/move_base/global_costmap/scan/sensor_frame"].value == "tb3_7/base_scan"
 
 
+def test_one_of_many_robots_is_careful_unless_told_otherwise(model):
+    files = "turtlebot3_navigation", "multi_turtlebot3_navigation.launch"
+    careful, usual = plan_of(*files, ns="tb3_7"), plan_of(*files, ns="tb3_7", careful=False)
+    assert careful.settings["/tb3_7/move_base/global_costmap/robot_radius"].value == 0.12
+    assert "/tb3_7/move_base/global_costmap/robot_radius" not in usual.settings
+
+
 def test_a_careful_robot_plans_for_a_disc_of_its_model(model):
     radii = {}
     for name in ("burger", "waffle", "waffle_pi"):
