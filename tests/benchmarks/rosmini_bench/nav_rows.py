@@ -259,8 +259,13 @@ have the same effect as a shut door. Neither explorer looks at a wall a second t
 CROSSING = """## Robots that cross one another's paths
 
 Burgers in the house, each with its own `amcl`, are sent at the same moment to where another one began. A contact is
-charged to each robot that moved faster than 0.02 m/s when it began. In the run with contacts two robots met at a door:
-each planner takes the other robot for an obstacle that stands still where the last scan saw it.
+charged to each robot that moved faster than 0.02 m/s when it began. Each planner takes the other robot for an obstacle
+that stands still where the last scan saw it.
+
+The robots use the careful files: `multi_turtlebot3_navigation.launch` sets `careful:=true`. We chose this with the
+seeds 0 to 49 of the table. In the same runs without *careful*, 197 of 200 goals were reached, with 13 contacts in three
+runs. Seeds 1000 to 1047 were driven afterwards, and nothing was changed for them: 192 of 192 goals without a contact;
+without *careful* 190 of 192, with 10 contacts in four runs.
 """
 
 FAILURES = """## Each failure of a careful robot

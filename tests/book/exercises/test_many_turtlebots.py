@@ -28,7 +28,7 @@ def test_two_robots_change_places(figures):
         map(float, found)
         for found in re.findall(r"^tb3_\d(?: \(burger\).*?)?: .*?end \((.*?), (.*?),", figures[1], re.MULTILINE)[:2]
     ]
-    assert (x, y) == pytest.approx((0.0, 1.0), abs=0.2)
+    assert (x, y) == pytest.approx((-0.5, 1.0), abs=0.2)
     assert (other_x, other_y) == pytest.approx((-3.0, 1.0), abs=0.2)
 
 
