@@ -35,7 +35,7 @@ from sphinx import addnodes
 from sphinx.transforms import SphinxTransform
 from sphinx.util.docutils import SphinxDirective
 
-from book.tools import notebooks, reading
+from book.tools import notebooks, reading, reference
 from book.tools.captions import CAPTION
 from book.tools.lexer import CellLexer
 from book.tools.pages import VIEWER_CALL
@@ -431,6 +431,8 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_transform(Captions)
     app.add_directive("drawing", Drawing)
     app.add_directive("stored", Stored)
+    app.add_directive("parameters", reference.ParameterTables)
+    app.add_directive("interface", reference.Interface)
     for language in ("python", "ipython3"):  # of fences, and of cells
         app.add_lexer(language, CellLexer)
     app.connect("config-inited", substitute)
