@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from rosmini.core.geometry.poses import Pose, compose, inverse
 from rosmini.core.geometry.products import norms
@@ -293,28 +293,3 @@ def pose_text(pose: Sequence[float]) -> str:
 def length_of(line: Floats) -> float:
     """Return the length [m] of a line (n, 2) or (n, 3)."""
     return float(norms(np.diff(line[:, :2], axis=0)).sum())
-
-
-def pose_of(given: Sequence[float], what: str) -> Pose:
-    """Return a pose as a tuple. Raises `ViewError` if it is invalid."""
-    try:
-        x, y, heading = (float(v) for v in given)
-    except (TypeError, ValueError) as error:
-        raise ViewError(f"{what} must be x [m], y [m] and heading [rad], not {given!r}") from error
-    if not all(map(math.isfinite, (x, y, heading))):
-        raise ViewError(f"{what} is ({x}, {y}, {heading}), which is not finite")
-    return (x, y, heading)
-
-
-def line_of(given: ArrayLike, what: str) -> Floats:
-    """Return points (n, 2) or (n, 3) as an array. Raises `ViewError` if they are invalid."""
-    try:
-        line = np.array(given, dtype=float)
-    except (TypeError, ValueError) as error:
-        raise ViewError(f"{what} must be an array of points, not a {type(given).__name__}") from error
-    if line.ndim != 2 or line.shape[1] not in (2, 3) or not len(line):
-        raise ViewError(f"{what} must be an array (n, 2) or (n, 3) with at least one point, not {line.shape}")
-    bad = ~np.isfinite(line).all(axis=1)
-    if bad.any():
-        raise ViewError(f"{what}[{np.flatnonzero(bad)[0]}] is {line[bad][0].tolist()}, which is not finite")
-    return line

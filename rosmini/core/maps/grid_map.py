@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from rosmini.core.errors import RosminiError
 from rosmini.core.geometry.angles import quaternion_from_yaw, yaw_from_quaternion
 from rosmini.core.geometry.poses import compose, inverse
-from rosmini.core.graph.show import show
 from rosmini.msgs import message_class
 
 if TYPE_CHECKING:
@@ -101,10 +100,6 @@ class GridMap:
         """Return the centre of a cell [m], in the frame of the map."""
         x, y, _ = compose(self.origin, ((mx + 0.5) * self.resolution, (my + 0.5) * self.resolution, 0.0))
         return x, y
-
-    def show(self, **options: Any) -> Any:
-        """Show a picture of the map; for `options` see `rosmini.viz.map_pictures.map_picture`."""
-        return show("map", self, **options)
 
     @classmethod
     def from_message(cls, message: Any) -> GridMap:

@@ -162,23 +162,6 @@ class Costmap2D:
         self.origin = (self.origin[0] + dx * self.resolution, self.origin[1] + dy * self.resolution)
         return dx, dy
 
-    def show(self, **options: Any) -> Any:
-        """Draw the costs as seen from above.
-
-        Options and their defaults:
-            robot=None: the robot's pose: x [m], y [m], heading [rad]
-            footprint=None: the robot's footprint (n, 2) [m] in its base frame
-            plan=None: a path (n, 2) [m]
-            goal=None: a point or a pose [m]
-            window=None: show only these cells: first column, first row, and the column and row after the last
-            scheme="costmap": or "safe", whose colours colour-blind readers can distinguish
-            name="costmap": the name of the costmap in the text form
-            title=None: a caption below the picture and at the start of the text form
-        """
-        from rosmini.core.graph.show import show
-
-        return show("costmap", self, **options)
-
 
 def outline_spans(cells: list[Cell]) -> dict[int, Cell]:
     """Return the lowest and highest row of a polygon's outline, keyed by column; `cells` (mx, my) hold the vertices.

@@ -6,8 +6,6 @@ Both its parameters and its topics are in the node's private namespace under the
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from contextlib import suppress
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from rosmini.core.dynamic_reconfigure import Server
 from rosmini.core.errors import ParameterError
 from rosmini.core.geometry.poses import Pose
+from rosmini.core.graph.show import show
 from rosmini.core.tf import TransformException
 from rosmini.core.tf.rigid import compose, from_yaw, rpy
 from rosmini.core.time import Time
@@ -25,7 +24,7 @@ from rosmini.navigation.nav_core.failures import TransformMissing
 from rosmini.navigation.nav_core.poses import planar_pose, pose_stamped
 
 from . import footprint as outlines
-from .costmap import FREE_SPACE, INSCRIBED_INFLATED_OBSTACLE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D, fill
+from .costmap import Costmap2D, fill
 from .layer import Layer
 from .layered import LayeredCostmap
 from .migration import inherit, migrate
@@ -42,38 +41,6 @@ DYNAMIC_NAMES = tuple(each.name for each in fields(CostmapConfig))
 """Names of the parameters that can change while the costmap runs."""
 POLL_PERIOD = 0.01
 """Interval between checks for the first update [s]."""
-
-MEANINGS = {
-    FREE_SPACE: "free",
-    INSCRIBED_INFLATED_OBSTACLE: "in collision whatever the heading",
-    LETHAL_OBSTACLE: "an obstacle",
-    NO_INFORMATION: "unknown",
-}
-"""Descriptions of special costs."""
-
-
-class CellCosts(dict[str, int | None]):
-    """The cost of a cell in each layer, keyed by layer name, lowest first; None if the layer sets no cost.
-
-    As text, one line describes the cell and one line each layer.
-    """
-
-    def __init__(self, grid: Costmap2D, mx: int, my: int, explanations: Mapping[str, tuple[int | None, str]]) -> None:
-        super().__init__({name: cost for name, (cost, _) in explanations.items()})
-        self.cost = grid.cost(mx, my)
-        """The cell's cost in the master grid."""
-        self.cell = (mx, my)
-        self.point = grid.map_to_world(mx, my)
-        self._texts = {name: text for name, (_, text) in explanations.items()}
-
-    def __str__(self) -> str:
-        meaning = MEANINGS.get(self.cost, "near something")
-        lines = [f"cell {self.cell} at ({self.point[0]:.2f}, {self.point[1]:.2f}) m costs {self.cost}: {meaning}"]
-        for name, cost in self.items():
-            text = self._texts[name]
-            shown = "nothing" if cost is None else str(cost)
-            lines.append(f"  {name}: {shown}{f' ({text})' if text else ''}")
-        return "\n".join(lines)
 
 
 class Costmap2DROS:
@@ -244,11 +211,6 @@ class Costmap2DROS:
         return self.layered.footprint
 
     @property
-    def unpadded_footprint(self) -> NDArray[np.float64]:
-        """The footprint's vertices (n, 2) [m] without padding."""
-        return self._unpadded
-
-    @property
     def inscribed_radius(self) -> float:
         """The distance [m] from the robot's centre to the nearest point of the padded footprint."""
         return self.layered.inscribed_radius
@@ -287,18 +249,9 @@ class Costmap2DROS:
         moved = compose(found.transform, from_yaw(*planar_pose(pose)))
         return pose_stamped(self.global_frame, Time.from_nsec(found.stamp_ns), (moved[0], moved[1], rpy(moved)[2]))
 
-    def explain(self, mx: int, my: int) -> CellCosts:
-        """Return the cost that each layer gives a cell, or None, with reasons. Raises `IndexError` outside the grid."""
-        explanations = {layer.name: layer.explain(mx, my) for layer in self.layers if layer.is_enabled}
-        return CellCosts(self.grid, mx, my, explanations)
-
-    def show(self, **options: Any) -> Any:
-        """Draw the costs and the robot; see `Costmap2D.show` for the options."""
-        with suppress(TransformMissing):
-            options.setdefault("robot", self._robot()[0])
-        options.setdefault("footprint", self.footprint)
-        options.setdefault("name", self.name)
-        return self.grid.show(**options)
+    def show(self, *, title: str | None = None) -> Any:
+        """Draw the costs and the robot, with a title below. Raises `TransformMissing` if its pose is unknown."""
+        return show("costmap", self.grid, robot=self._robot()[0], footprint=self.footprint, name=self.name, title=title)
 
     # -- changes -------------------------------------------------------------------------------------------------
 

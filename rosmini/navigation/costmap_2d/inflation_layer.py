@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
@@ -10,8 +9,8 @@ import numpy as np
 from rosmini.core.dynamic_reconfigure import Server
 from rosmini.core.geometry.poses import Pose
 
-from .costmap import LETHAL_OBSTACLE, Costmap2D
-from .inflation import cell_distance, cost_at, cost_table, inflate
+from .costmap import Costmap2D
+from .inflation import cell_distance, cost_table, inflate
 from .layer import Bounds, Layer, Window
 from .parameters import InflationConfig
 
@@ -71,21 +70,3 @@ class InflationLayer(Layer, plugin="costmap_2d::InflationLayer"):
     def update_costs(self, grid: Costmap2D, window: Window) -> None:
         """Inflate the obstacles that the layers below have written."""
         inflate(grid.costs, window, self._cells, self._table, inflate_unknown=self._inflate_unknown)
-
-    def explain(self, mx: int, my: int) -> tuple[int | None, str]:
-        """Return the cost from the distance to the nearest obstacle in the master grid, and the formula as text."""
-        grid, reach = self.layered.grid, self._cells
-        x0, y0 = max(mx - reach, 0), max(my - reach, 0)
-        rows, columns = np.nonzero(grid.costs[y0 : my + reach + 1, x0 : mx + reach + 1] == LETHAL_OBSTACLE)
-        squared = (rows + y0 - my) ** 2 + (columns + x0 - mx) ** 2
-        if not len(squared) or squared.min() > reach * reach:
-            return None, f"no obstacle within the inflation radius of {self.radius:.2f} m"
-        distance = math.sqrt(squared.min()) * grid.resolution
-        inscribed = self.layered.inscribed_radius
-        cost = cost_at(distance, inscribed, self.cost_scaling_factor)
-        text = f"the nearest obstacle is {distance:.2f} m away"
-        if distance == 0:
-            return cost, "an obstacle"
-        if distance <= inscribed:
-            return cost, f"{text}, within the inscribed radius of {inscribed:.2f} m"
-        return (cost, f"{text}: 252 exp(-{self.cost_scaling_factor:g} ({distance:.3f} - {inscribed:.3f})) = {cost}")

@@ -22,7 +22,7 @@ import numpy as np
 from rosmini.core.geometry.poses import Pose
 from rosmini.core.plugins import Plugin
 
-from .costmap import FREE_SPACE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D, Costs
+from .costmap import NO_INFORMATION, Costmap2D, Costs
 
 if TYPE_CHECKING:
     from rosmini.core.graph import Node
@@ -138,11 +138,6 @@ class Layer(Plugin, ABC):
     def on_initialize(self) -> None:
         """Read parameters and subscribe to topics."""
 
-    @property
-    def topics(self) -> tuple[str, ...]:
-        """The resolved names of the topics that the layer subscribes to."""
-        return ()
-
     @abstractmethod
     def update_bounds(self, robot: Pose, bounds: Bounds) -> None:
         """Extend `bounds` to every cell that the layer will change; `robot` is the pose in the costmap's frame."""
@@ -165,11 +160,6 @@ class Layer(Plugin, ABC):
 
     def reset(self) -> None:
         """Discard all data received so far."""
-
-    def explain(self, mx: int, my: int) -> tuple[int | None, str]:
-        """Return the cost that the layer gives a cell of the master grid, or None, and the reason as text."""
-        del mx, my
-        return None, ""
 
 
 class CostmapLayer(Layer):
@@ -240,13 +230,3 @@ class CostmapLayer(Layer):
     def update_with_true_overwrite(self, grid: Costmap2D, window: Window) -> None:
         """Write all of this layer's costs, including unknown ones."""
         np.copyto(window.view(grid.costs), window.view(self.costs))
-
-    def explain(self, mx: int, my: int) -> tuple[int | None, str]:
-        """Return the layer's cost at a cell of the master grid, or None where it is unknown, and a description."""
-        cell = self.grid.world_to_map(*self.layered.grid.map_to_world(mx, my))
-        if cell is None:
-            return None, "the cell is outside the area of the layer"
-        cost = self.grid.cost(*cell)
-        if cost == NO_INFORMATION:
-            return None, "unknown"
-        return (cost, "free" if cost == FREE_SPACE else "an obstacle" if cost == LETHAL_OBSTACLE else f"cost {cost}")

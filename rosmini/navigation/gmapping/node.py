@@ -42,7 +42,7 @@ class SlamGmapping:
         self.node = node
         self.parameters = p = GmappingParameters.read(node)
         self.slam: GridSlam | None = None
-        """The filter, or None before the first scan; `slam.show()` draws its maps and paths."""
+        """The filter, or None before the first scan."""
         self._extent = first_extent(p.xmin, p.ymin, p.xmax, p.ymax, p.delta, node.logwarn)
         self._upside_down = False
         self._beams = self._scans = 0

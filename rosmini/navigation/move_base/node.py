@@ -19,7 +19,6 @@ from typing import TYPE_CHECKING, Any
 from rosmini.core.actionlib import SimpleActionServer
 from rosmini.core.dynamic_reconfigure import Server
 from rosmini.core.errors import ROSInterruptException, RosminiError
-from rosmini.core.graph.show import show
 from rosmini.core.tf import TransformListener
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.costmap_2d import FREE_SPACE
@@ -29,8 +28,6 @@ from rosmini.navigation.nav_core import BadGoal, NavigationFailure, TransformMis
 from rosmini.navigation.nav_core.poses import checked_goal
 
 from .checks import check_setup
-from .explanation import Explanation, explain
-from .measures import decrease_text, lethal_cells
 from .parameters import MoveBaseConfig, MoveBaseParameters, limits
 from .planning import PlannerLane, offsets_within
 from .plugin_calls import call
@@ -85,10 +82,6 @@ class MoveBase:
         """The plan that the local planner is following."""
         self.problem = ""
         """The reason for the last failure to plan or to find a command."""
-        self.failure: NavigationFailure | None = None
-        """The same failure with its numbers."""
-        self.recovery_log: list[str] = []
-        """Descriptions of the changes made by recovery behaviours for the current goal."""
         self.lane = PlannerLane(node, self.machine, self._make_plan, self._stop_base)
         check_setup(self)
         self.action.start()
@@ -147,14 +140,6 @@ class MoveBase:
         """The local planner."""
         return self.planners.of[LOCAL]
 
-    def explain(self) -> Explanation:
-        """Return a report of the robot's state, its last problem, and its distances to obstacles."""
-        return explain(self)
-
-    def show(self, **options: Any) -> Any:
-        """Return a picture of the loaded parts and the topics that connect them to other nodes."""
-        return show("move_base", self, **options)
-
     def _now(self) -> float:
         return self.node.clock.now_ns() * 1e-9
 
@@ -200,7 +185,7 @@ class MoveBase:
                 f"{self.global_costmap.global_frame} frame: {error}"
             )
             self.goal = target
-        self.problem, self.failure, self.recovery_log = "", None, []
+        self.problem = ""
         self.plan = ()
         self.lane.goal = self.goal
         self.machine.start_goal(self._now())
@@ -351,7 +336,7 @@ class MoveBase:
             return False
 
     def _handle_no_command(self, error: NavigationFailure) -> None:
-        self.problem, self.failure = str(error), error
+        self.problem = str(error)
         self.node.logwarn(f"No valid command: {error}", throttle=WARN_PERIOD)
         self.machine.command_failed(self._now())
         self._stop_base()
@@ -369,17 +354,10 @@ class MoveBase:
         with suppress(TransformMissing):
             status.pose_stamped = self.global_costmap.robot_pose()
         self._recoveries.publish(status)
-        costmaps = (self.global_costmap, self.local_costmap)
-        before = [lethal_cells(costmap.layers) for costmap in costmaps]
         try:
             call(self.node, f"the recovery behavior {name}", behavior.run_behavior, budget=RECOVERY_TIME_LIMIT)
         except NavigationFailure as error:
             self.node.logerr(str(error))
-        changes = (
-            f"{decrease_text(was - lethal_cells(costmap.layers))} in {costmap.name}"
-            for was, costmap in zip(before, costmaps, strict=True)
-        )
-        self.recovery_log.append(f"{name} ({self.machine.trigger.name.lower()}): {', '.join(changes)}")
         self.machine.recovered(self._now())
 
     def _abort(self, decision: Abort) -> None:
@@ -403,7 +381,7 @@ class MoveBase:
         try:
             plan: Sequence[Any] = self._call_planner(GLOBAL, "make_plan", start, goal)
         except NavigationFailure as error:
-            self.problem, self.failure = str(error), error
+            self.problem = str(error)
             self.node.logwarn(f"Failed to find a plan: {error}", throttle=WARN_PERIOD)
             return ()
         if plan is None or not len(plan):
