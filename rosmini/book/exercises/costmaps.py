@@ -70,6 +70,14 @@ def _flat() -> GridMap:
 def door(answer: Any) -> Any:
     """Settings with which the robot drives through the middle of the door."""
     settings = settings_of(answer, "settings")
+    for costmap in ("global_costmap", "local_costmap"):
+        block = settings.get(costmap)
+        expect(
+            not isinstance(block, dict) or "inflation_layer" not in block,
+            f"{costmap} has a block inflation_layer. This configuration sets inflation_radius directly in the costmap, "
+            "which overrides the block.",
+            f"write inflation_radius and cost_scaling_factor directly below {costmap}",
+        )
     with TemporaryDirectory() as folder:
         path, _ = save_map(_flat(), Path(folder) / "flat")
         drive = Drive(navigation(START, settings, world=path, map_file=path))

@@ -42,6 +42,8 @@ STARTS = (((2.9, 0.5, 1.57), 2.0), ((-0.4, 0.0, 3.14), 0.5))
 """Poses in the room, and the distance [m] that the robot drives from each, at least. At the second one it faces a
 wall, and has to turn first."""
 SECONDS = 20.0
+FREE_SECONDS, FREE_TURN = 4.0, 0.25
+"""At the first start nothing is in the way for this time [s], and the robot turns by less than this angle [rad]."""
 
 
 @exercise("wander", praise="It samples, simulates, rejects and chooses, five times a second.")
@@ -50,7 +52,7 @@ def wander(answer: Script) -> Any:
     for (x, y, yaw), least in STARTS:
         with Trial("room", f"_x:={x}", f"_y:={y}", f"_yaw:={yaw}") as trial:
             trial.start(answer)
-            driven, before = 0.0, (x, y)
+            driven, turned, before = 0.0, 0.0, (x, y, yaw)
             for step in range(round(2 * SECONDS)):
                 trial.run(0.5)
                 touched = trial.robot.engine.contacts.touches(trial.robot.name)
@@ -59,9 +61,16 @@ def wander(answer: Script) -> Any:
                     f"From ({x:g}, {y:g}) the robot touched something after {(step + 1) / 2:g} s.",
                     "reject w if any of its points is nearer than 0.2 m to any obstacle",
                 )
-                here = trial.robot.truth()[:2]
-                driven += math.dist(here, before)
+                here = trial.robot.truth()
+                driven += math.dist(here[:2], before[:2])
+                turned += abs(math.remainder(here[2] - before[2], math.tau))
                 before = here
+                expect(
+                    (x, y, yaw) != STARTS[0][0] or (step + 1) / 2 > FREE_SECONDS or turned < FREE_TURN,
+                    f"From ({x:g}, {y:g}) the robot turned by {math.degrees(turned):.0f} degrees, although nothing is "
+                    "in front of it.",
+                    "of the turning speeds that are left, choose the one with the smallest absolute value",
+                )
             expect(
                 driven > least,
                 f"From ({x:g}, {y:g}) the robot drove only {driven:.1f} m in {SECONDS:g} s.",

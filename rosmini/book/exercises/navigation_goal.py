@@ -7,6 +7,7 @@ from typing import Any
 
 from rosmini.book.checks import Script, Wrong, exercise, expect
 from rosmini.book.drives import Drive, navigation
+from rosmini.msgs.actionlib_msgs.msg import GoalID
 from rosmini.msgs.geometry_msgs.msg import PointStamped
 from rosmini.msgs.move_base_msgs.msg import MoveBaseActionGoal, MoveBaseActionResult
 from rosmini.msgs.std_msgs.msg import Empty
@@ -32,6 +33,9 @@ class Errands(Drive):
         """The state in which each goal ended, and when [s]."""
         self._desk.subscriber("/move_base/goal", MoveBaseActionGoal, self._on_goal)
         self._desk.subscriber("/move_base/result", MoveBaseActionResult, self._on_result)
+        self.cancels: list[Any] = []
+        """The requests to cancel a goal."""
+        self._desk.subscriber("/move_base/cancel", GoalID, self.cancels.append)
         self.run(0.1)
 
     def _on_goal(self, message: Any) -> None:
@@ -56,8 +60,11 @@ class Errands(Drive):
             except BadGoal as error:
                 raise Wrong(f"move_base refuses a goal: {error}.", "set orientation.z and w") from error
 
-    def expect_pose(self, goal: Pose, seconds: float, what: str, hint: str) -> None:
-        """Expect that the goal that was just sent is this one, and that the robot reaches it in time."""
+    def expect_pose(self, goal: Pose, seconds: float, what: str, hint: str, heading_hint: str) -> None:
+        """Expect that the goal that was just sent is this one, and that the robot reaches it in time.
+
+        The hints are those for a wrong position and for a wrong heading.
+        """
         self.expect_valid_goals()
         before = len(self.ends)
         for _ in range(round(2 * seconds)):
@@ -75,7 +82,7 @@ class Errands(Drive):
         expect(
             abs(turned) < 0.4,
             f"{what} the robot arrived, but its heading is off by {math.degrees(turned):.0f} degrees.",
-            "use math.atan2(dy, dx); z and w of a quaternion are the sine and the cosine of half the angle",
+            heading_hint,
         )
 
 
@@ -110,7 +117,10 @@ def one_click(answer: Script) -> Any:
                 "publish one goal for each point",
             )
             heading = math.atan2(y - from_y, x - from_x)
-            errands.expect_pose((x, y, heading), 25.0, what, "copy the clicked point to goal.pose.position")
+            errands.expect_pose(
+                (x, y, heading), 25.0, what, "copy the clicked point to goal.pose.position",
+                "use math.atan2(dy, dx); z and w of a quaternion are the sine and the cosine of half the angle",
+            )  # fmt: skip
         return errands.view()
 
 
@@ -136,7 +146,10 @@ def home(answer: Script) -> Any:
             "There was a message on home, but move_base received no goal.",
             "fill in the goal, then publish it",
         )
-        errands.expect_pose(BEGIN, 20.0, "After a message on home", "use the first pose, not the last")
+        errands.expect_pose(
+            BEGIN, 20.0, "After a message on home", "use the first pose, not the last",
+            "copy the orientation of the first pose too, not only its position",
+        )  # fmt: skip
         return errands.view()
 
 
@@ -175,6 +188,11 @@ def waiter(answer: Script) -> Any:
             reached == [TABLES[0], TABLES[2]],
             f"The robot served only {reached}.",
             "wait for the result of each goal, also the last",
+        )
+        expect(
+            bool(errands.cancels),
+            f"The blocked goal {BLOCKED} ended only because the next goal replaced it.",
+            "call cancel_goal() after the timeout, since the last goal of a list has no successor",
         )
         return errands.view()
 

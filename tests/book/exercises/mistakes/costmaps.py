@@ -123,6 +123,7 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
         wrong(DOOR, "0.12", "0.35"),
         wrong(DOOR, "0.12", "0.12\n  inflation_radius: 0.2"),
         wrong(DOOR, "0.12", "0.12\n  cost_scaling_factor: 40.0"),
+        wrong(DOOR, "0.12", "0.12\n  inflation_layer: {inflation_radius: 0.6}"),
         wrong(DOOR, "0.12", "wide"),
     ],
     "cost_there": [

@@ -86,6 +86,8 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
         _but(".min() >= 0.2", ".min() >= 0.0"),
         _but("command.linear.x = 0.15", "pass"),
         _but("key=abs)", "key=abs) + 0.1 * missing"),
+        _but("min(possible, key=abs)", "max(possible, key=abs)"),
+        _but("min(possible, key=abs)", "possible[0]"),
     ],
     "past_the_crate": [
         lambda: "DWAPlannerROS: {sim_time: 0.3}",

@@ -106,6 +106,7 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
         _but(WAITER, "rospy.Duration(25)", ""),
         _but(WAITER, "rospy.Duration(25)", "rospy.Duration(3)"),
         _but(WAITER, "        client.cancel_goal()\n        client.wait_for_result()\n", "        break\n"),
+        _but(WAITER, "        client.cancel_goal()\n        client.wait_for_result()\n", "        continue\n"),
         _but(WAITER, "    goal.target_pose.pose.orientation.w = 1\n", ""),
         _but(WAITER, "    if not client", "    if x < -2.2:\n        break\n    if not client"),
     ],
