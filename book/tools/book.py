@@ -8,7 +8,7 @@ from pathlib import Path
 
 from rosmini.tools.checkout import find_checkout
 
-from .build import build_book, has_display
+from .build import build_book, find_chromium, has_display
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -20,20 +20,42 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument("--no-open", action="store_true", help="only build it, and print where it is")
     parser.add_argument("--output", type=Path, metavar="FOLDER", help="write FOLDER/_build/html instead")
+    parser.add_argument("--pdf", action="store_true", help="also print _build/rosmini.pdf, by Chromium or Chrome")
+    parser.add_argument("--paper", choices=("a4", "letter"), default="a4", help="the paper of the PDF (default: a4)")
+    parser.add_argument("--epub", action="store_true", help="also write _build/rosmini.epub, for e-readers")
     parser.add_argument("--verbose", action="store_true", help="show what Jupyter Book says")
 
 
 def main(args: argparse.Namespace) -> int:
-    """Build, print where the first page is, and open it unless told not to or nobody would see it."""
+    """Build, print where the book is, and open what was made last unless told not to or nobody would see it."""
     checkout = find_checkout()
+    if args.pdf:
+        find_chromium()  # an error now, not after the build
     print(f"Building the book in {checkout} ...", flush=True)
     output = args.output.resolve() if args.output else None
     first = build_book(checkout, output, quiet=not args.verbose)
-    print(f"The book is at {first}")
+    made = [first]
+    if args.pdf or args.epub:
+        made += _on_paper(checkout, first.parent, args)
+    for path in made:
+        print(f"The book is at {path}")
     if args.no_open:
         return 0
     if not has_display():
         print("No display here: open that file in a browser.")
-    elif not webbrowser.open(first.as_uri()):
+    elif not webbrowser.open(made[-1].as_uri()):
         print("No browser was found: open that file yourself.")
     return 0
+
+
+def _on_paper(checkout: Path, site: Path, args: argparse.Namespace) -> list[Path]:
+    """Make the EPUB and the PDF from the built pages."""
+    from . import epub, paper, pdf  # what they import comes with Jupyter Book
+
+    sheets = paper.read_sheets(site, paper.listed_pages(checkout))
+    made = []
+    if args.epub:
+        made.append(epub.make_epub(site, sheets, site.with_name("rosmini.epub")))
+    if args.pdf:
+        made.append(pdf.make_pdf(site, sheets, site.with_name("rosmini.pdf"), size=args.paper))
+    return made

@@ -10,6 +10,14 @@ from pathlib import Path
 
 from rosmini.core.errors import RosminiError
 
+PLACES = [
+    "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
+    "/Applications/Chromium.app/Contents/MacOS/Chromium",
+    r"C:\Program Files\Google\Chrome\Application\chrome.exe",
+    r"C:\Program Files (x86)\Google\Chrome\Application\chrome.exe",
+]
+"""Where macOS and Windows have a browser, which is on no search path there."""
+
 
 class BookError(RosminiError):
     """The book could not be built."""
@@ -66,6 +74,23 @@ def has_display() -> bool:
     if sys.platform in {"win32", "darwin"}:
         return True
     return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def find_chromium() -> str:
+    """Return the path of Chromium or Chrome: `ROSMINI_CHROMIUM`, or one on the search path, or in its usual place.
+
+    Raises `BookError` if there is none.
+    """
+    names = ("chromium", "chromium-browser", "google-chrome", "chrome", "msedge")
+    given = os.environ.get("ROSMINI_CHROMIUM")
+    found = [given] if given else [*filter(None, map(shutil.which, names)), *PLACES]
+    path = next(filter(os.path.isfile, found), None)
+    if path is None:
+        raise BookError(
+            "a PDF is printed by Chromium or Chrome, and neither was found. Install one, for instance with "
+            "`apt install chromium`, or set ROSMINI_CHROMIUM to the path of its program"
+        )
+    return path
 
 
 def _has_jupyter_book() -> bool:

@@ -2,15 +2,14 @@
 
 import json
 import os
-import shutil
 import sys
 from contextlib import contextmanager
-from pathlib import Path
 from urllib.request import Request, urlopen
 
 import numpy as np
 import pytest
 
+from book.tools.build import BookError, find_chromium
 from rosmini import Graph
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.sim.recorder import Recorder
@@ -34,22 +33,12 @@ FLAGS = [
 ]
 
 
-PLACES = [
-    "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
-    "/Applications/Chromium.app/Contents/MacOS/Chromium",
-    r"C:\Program Files\Google\Chrome\Application\chrome.exe",
-    r"C:\Program Files (x86)\Google\Chrome\Application\chrome.exe",
-]
-"""Where macOS and Windows have it, which put it on no search path."""
-
-
 def chromium_path():
-    """Where Chromium or Chrome is: `ROSMINI_CHROMIUM`, or on the search path, or in its system's usual place."""
-    given = os.environ.get("ROSMINI_CHROMIUM")
-    if given:
-        return given if Path(given).is_file() else None
-    on_path = (shutil.which(name) for name in ("chromium", "chromium-browser", "google-chrome"))
-    return next(filter(None, on_path), None) or next(filter(os.path.isfile, PLACES), None)
+    """Where Chromium or Chrome is, if anywhere."""
+    try:
+        return find_chromium()
+    except BookError:
+        return None
 
 
 def launched(kind, flags):
