@@ -404,7 +404,7 @@ CORRECTIONS = (
         re.compile(r'<div class="sidebar-primary-item">(?=[^<]*<a class="navbar-brand)'),
         r'<div role="navigation" aria-label="Home">',
     ),
-    (re.compile(r'<th class="head"><p></p></th>|<th scope="col"></th>'), "<td></td>"),
+    (re.compile(r'<th class="head"><p></p></th>'), "<td></td>"),
     # Citations: a role that is deprecated, and a list whose entries are none.
     (re.compile(r' role="doc-biblioentry"'), ""),
     (re.compile(r'<div role="list" class="citation-list">'), '<div class="citation-list">'),

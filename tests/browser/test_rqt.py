@@ -169,7 +169,7 @@ def test_a_service_is_called_with_keys_alone(show, graph):
     opened.control("call").focus()
     opened.page.keyboard.press("Enter")
     opened.pump()
-    assert opened.page.get_by_role("region", name="Values of std_srvs/SetBoolResponse").is_visible()
+    assert opened.page.get_by_role("group", name="Values of std_srvs/SetBoolResponse").is_visible()
     assert "'on'" in opened.page.locator("section.rq-box").last.inner_text()
 
 
@@ -217,7 +217,7 @@ def test_what_is_logged_appears(show, graph):
     opened.choose("level", "WARN")
     graph.nodes["/lamp"].logwarn("<i>hot</i>")
     opened.pump(0.5)
-    assert "<i>hot</i>" in opened.page.get_by_role("region", name="Log messages").inner_text()
+    assert "<i>hot</i>" in opened.page.get_by_role("group", name="Log messages").inner_text()
 
 
 def test_why_a_message_was_refused_is_seen_until_the_next_click(show, graph):

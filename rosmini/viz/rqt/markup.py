@@ -21,11 +21,16 @@ def page(title: str, parts: Iterable[Part], *, live: bool) -> str:
     """Return the panel; without a kernel (``live`` is False) its controls are disabled."""
     head = element("header", element("strong", escape(title)))
     note = "" if live else element("p", "In a live notebook this form works.", class_="rq-note")
-    body = element("fieldset", markup(parts), disabled=None if live else "")
+    form = markup(parts)
+    # Each control by itself: in a disabled fieldset, the keyboard would not reach the tables that scroll either.
+    body = element("fieldset", form if live else CONTROL.sub(r"<\1 disabled", form))
     return element(
-        "section", f"<style>{CSS}</style>{head}{body}{note}", class_=NAME, aria_label=title,
+        "section", f"<style>{CSS}</style>{head}{body}{note}", class_=NAME, role="group", aria_label=title,
         data_lm_suppress_shortcuts="true",
     )  # fmt: skip
+
+
+CONTROL = re.compile(r"<(button|input|select|textarea)(?=[ >])")
 
 
 def markup(parts: Iterable[Part]) -> str:
@@ -70,9 +75,13 @@ def table(part: Rows) -> str:
     body = "".join(_row(part.columns, row) for row in part.rows)
     if not part.rows:
         body = element("tr", element("td", escape(part.empty), colspan=len(part.columns)))
-    head = element("tr", "".join(element("th", escape(title), scope="col") for title in part.columns))
+    head = element("tr", "".join(_heading(title) for title in part.columns))
     whole = element("table", element("thead", head) + element("tbody", body))
-    return element("div", whole, class_=TABLE, role="region", aria_label=part.label, tabindex="0")
+    return element("div", whole, class_=TABLE, role="group", aria_label=part.label, tabindex="0")
+
+
+def _heading(title: str) -> str:
+    return element("th", escape(title), scope="col") if title else element("td", "")
 
 
 def _row(columns: Iterable[str], row: Row) -> str:
