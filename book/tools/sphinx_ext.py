@@ -15,6 +15,7 @@
 - The directive `stored` shows a figure that a notebook has stored, such as the pad on the cover.
 - The substitutions `repository_copy` and `reading_hours` are computed: the first from the one setting with the
   repository's address (`repository.url` in `_config.yml`), the second from the notebooks.
+- The first use of a term leads to the glossary, and the index is collected (`book.tools.subject_index`).
 - A notebook that a reader downloads begins with a cell that says how to get what it needs.
 """
 
@@ -35,7 +36,7 @@ from sphinx import addnodes
 from sphinx.transforms import SphinxTransform
 from sphinx.util.docutils import SphinxDirective
 
-from book.tools import notebooks, reading, reference
+from book.tools import notebooks, reading, reference, subject_index
 from book.tools.captions import CAPTION
 from book.tools.lexer import CellLexer
 from book.tools.pages import VIEWER_CALL
@@ -429,6 +430,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_html_math_renderer("mathml", (visit_inline_math, None), (visit_block_math, None))
     app.add_transform(QuoteBoxes)
     app.add_transform(Captions)
+    subject_index.setup(app)
     app.add_directive("drawing", Drawing)
     app.add_directive("stored", Stored)
     app.add_directive("parameters", reference.ParameterTables)

@@ -205,8 +205,8 @@ robot moves, and is noisy. The robot's pose comes from the simulator (`fake_loca
 
 How to read the table:
 
-- **Reached**: `move_base` reported `SUCCEEDED`, and the true pose was within the goal tolerance. With `amcl`, which has
-  an error of its own, 0.25 m and 0.3 rad are allowed.
+- **Reached**: `move_base` reported `SUCCEEDED`, and the true pose was within the goal tolerance. With `amcl`, whose
+  estimate has an error, 0.25 m and 0.3 rad are allowed.
 - **95% interval**: Wilson's interval for the share. Two rows whose intervals overlap do not differ for certain.
 - **Contacts**: the number of goals on the way to which the robot hit something.
 - **Length**: the driven path divided by the shortest path that keeps 0.15 m from everything in the map. **Time**: the
@@ -244,7 +244,7 @@ a large one for the median
 
 Both explorers use gmapping with 30 particles, its default, and `careful:=true`. explore_lite gives up a frontier after
 120 s without progress, because in the house a frontier may be close in a straight line and far to drive. *Seen* is the
-share of the cells that the robot can reach and that the final map knows: the median, and in brackets the least. *Saw
+share of the cells that the robot can reach and that the final map knows: the median, and in brackets the lowest. *Saw
 all* counts the runs that saw {good} or more.
 
 In the house and the maze {full} runs saw {good} or more, and {ended} ended by themselves.
@@ -258,13 +258,13 @@ have the same effect as a shut door. Neither explorer looks at a wall a second t
 
 CROSSING = """## Robots that cross one another's paths
 
-Burgers in the house, each with its own `amcl`, are sent at the same moment to where another one began. A contact is
+Burgers in the house, each with its own `amcl`, are sent at the same moment to the start of another one. A contact is
 charged to each robot that moved faster than 0.02 m/s when it began. Each planner takes the other robot for an obstacle
 that stands still where the last scan saw it.
 
 The robots use the careful files: `multi_turtlebot3_navigation.launch` sets `careful:=true`. We chose this with the
 seeds 0 to 49 of the table. In the same runs without *careful*, 197 of 200 goals were reached, with 13 contacts in three
-runs. Seeds 1000 to 1047 were driven afterwards, and nothing was changed for them: 192 of 192 goals without a contact;
+runs. We ran seeds 1000 to 1047 afterwards, and changed nothing for them: 192 of 192 goals without a contact;
 without *careful* 190 of 192, with 10 contacts in four runs.
 """
 
