@@ -68,7 +68,9 @@ def main(span: str, rows: str | None = None, *options: Any) -> None:
     sys.exit(
         pytest.main(
             [
-                "-n0", "-q", "-p", "no:cacheprovider", "-m", "nightly", "-k", conftest.RESTLESS, str(HERE), *options,
+                "-n0", "-q", "-p", "no:cacheprovider", "-m", "nightly", "-k", conftest.RESTLESS, str(HERE),
+                # Importing the conftest has imported it before pytest could rewrite its asserts.
+                "-W", "ignore::pytest.PytestAssertRewriteWarning", *options,
             ],
             [seeds],
         )
