@@ -22,7 +22,9 @@ ARTICLE = re.compile(r'<article class="bd-article">(.*?)</article>', re.DOTALL)
 SCRIPT = re.compile(r"<script\b.*?</script>", re.DOTALL)
 SVG_EDGE = re.compile(r"<svg\b|</svg>")
 ID_IN_SVG = re.compile(r'(\sid="|\saria-labelledby="|url\(#|href="#)')
-UNUSED = ".rosmini-moving, .headerlink, .toctree-wrapper, .larger, #pause-films, label[for=pause-films]"
+UNUSED = (
+    ".rosmini-moving, .headerlink, .toctree-wrapper, .larger, #pause-films, label[for=pause-films], input[type=range]"
+)
 LONG_CODE = 45
 """Code and output of more lines may break between two pages: it would leave too much of a page empty."""
 LONG_TABLE = 15
