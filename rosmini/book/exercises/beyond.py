@@ -128,5 +128,5 @@ def drivers(answer: Any) -> None:
         expect(
             found == wanted,
             f"The publishers of {topic} are {wanted}; your function returned {found!r}.",
-            "the first list contains the publishers; ignore the subscribers",
+            "take the nodes from the first list, the publishers, and sort them",
         )

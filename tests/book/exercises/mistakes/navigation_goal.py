@@ -93,6 +93,11 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
     ],
     "home": [
         _but(HOME, "    goal.pose = begin.pose.pose\n", "    goal.pose.position = begin.pose.pose.position\n"),
+        _but(
+            HOME,
+            "    goal.pose = begin.pose.pose\n",
+            "    goal.pose.position = begin.pose.pose.position\n    goal.pose.orientation.z = 1.0\n",
+        ),
         _but(HOME, "    goals.publish(goal)\n", ""),
         _but(HOME, "rospy.spin()", "rospy.sleep(0.5)\non_home(None)\nrospy.spin()"),
         _but(
