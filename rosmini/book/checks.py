@@ -17,6 +17,7 @@ import sys
 import sysconfig
 import traceback
 import types
+from contextvars import ContextVar
 from dataclasses import dataclass
 from enum import Enum
 from numbers import Real
@@ -38,6 +39,8 @@ EXERCISES = Path(__file__).with_name("exercises")
 """The folder of the chapters' modules."""
 NOTEBOOK = "notebook"
 """Name of the package that contains a notebook's scripts."""
+SEED: ContextVar[int] = ContextVar("rosmini_check_seed", default=0)
+"""The seed of the check that is running: that of all random numbers in its simulations. 0 is the seed of the book."""
 
 
 class UnknownExercise(RosminiError):
@@ -116,8 +119,8 @@ class Exercise:
     gaps: int = 1
     truths: tuple[str, ...] = ()
 
-    def grade(self, answer: Any) -> Verdict:
-        """Examine `answer`. An exception from the reader's code makes the answer wrong."""
+    def grade(self, answer: Any, seed: int = 0) -> Verdict:
+        """Examine `answer` in simulations with this seed. An exception from the reader's code makes it wrong."""
         if is_stub(answer, self.gaps):
             at = gap_left(answer) if isinstance(answer, Script) else ""
             return self._verdict(Status.NOT_ATTEMPTED, f"Replace the `...` {at}." if at else "")
@@ -126,6 +129,7 @@ class Exercise:
         if self._is_script() and not isinstance(answer, Script):
             said = f"The answer is of type {type(answer).__name__}, not a script."
             return self._verdict(Status.WRONG, f"{said}\nHint: check({self.name!r}) finds your %%node cell")
+        before = SEED.set(seed)
         try:
             view = self.examine(self._watched(answer))
         except Wrong as wrong:
@@ -133,6 +137,8 @@ class Exercise:
             return self._verdict(Status.WRONG, f"{wrong}{hint}", wrong.view)
         except Exception as error:
             return self._verdict(Status.WRONG, _unexpected(answer, error))
+        finally:
+            SEED.reset(before)
         return self._verdict(Status.RIGHT, self.praise, view)
 
     def _watched(self, answer: Any) -> Any:
@@ -261,16 +267,16 @@ def expect_fields(found: type[Message], wanted: type[Message], what: str) -> Non
     expect(given == right, f"The fields of the {what} are in the wrong order.")
 
 
-def check(name: str, *answer: Any) -> Verdict:
+def check(name: str, *answer: Any, seed: int = 0) -> Verdict:
     """Check `answer` to the exercise `name`, print the verdict, show the robot's run, and return the verdict.
 
     The verdict is true if the answer is right, so that `assert check("gentle")` works. The default answer is the script
-    written by the `%%node` cell with `# Exercise: gentle` in its second line. Raises `UnknownExercise` if there is no
-    such exercise, and `NoAnswer` if no such cell was run.
+    written by the `%%node` cell with `# Exercise: gentle` in its second line. With another `seed`, sensors and wheels
+    have other errors. Raises `UnknownExercise` if there is no such exercise, and `NoAnswer` if no such cell was run.
     """
     exercise = find(name)
-    given = answer or (written(name),)
-    verdict = exercise.grade(*given)
+    (given,) = answer or (written(name),)
+    verdict = exercise.grade(given, seed)
     print(verdict)
     if verdict.view is not None:
         from IPython.core.display_functions import display
@@ -296,6 +302,11 @@ def written(name: str) -> Script:
         f"the exercise {name} has no script yet: run the %%node cell that has `# Exercise: {name}` in its second line. "
         "If it shows an error, fix that first"
     )
+
+
+def names() -> list[str]:
+    """Return the names of all exercises."""
+    return list(_modules())
 
 
 def find(name: str) -> Exercise:

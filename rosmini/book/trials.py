@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, cast
 from rosmini.core.graph import Graph
 from rosmini.ros.scripts import Console, ScriptHandle, ScriptSpec, rosrun
 
-from .checks import Script, Wrong
+from .checks import SEED, Script, Wrong
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -51,7 +51,7 @@ class Trial:
         self._recorder = Recorder(self.graph, self.robot)
 
     def _begin(self, *, is_shown: bool) -> None:
-        self.graph = Graph(strict=False)
+        self.graph = Graph(strict=False, seed=SEED.get())
         self._is_shown = is_shown
         self._console = Console(self.graph.scheduler, prefix=False, capture_output=True)
         self._scripts: list[ScriptHandle] = []

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rosmini.book.checks import Script, Wrong, exercise, expect, expect_type
+from rosmini.book.checks import SEED, Script, Wrong, exercise, expect, expect_type
 from rosmini.book.drives import Drive, Pose
 from rosmini.book.trials import Trial
 from rosmini.core.actionlib import SimpleActionServer
@@ -319,13 +319,15 @@ def _passes(answer: str, reports: Sequence[str]) -> bool:
 
 @exercise("project", praise="The package patrols a house that it has never seen like this.")
 def project(answer: Any) -> Any:
-    """The name of a package, or a tuple: the name, and the seeds of the nights."""
+    """The name of a package, or a tuple: the name, and the seeds of the nights. A seed of the check replaces these."""
     from rosmini.viz import grid
 
     name, *seeds = answer if isinstance(answer, tuple) else (answer,)
     expect_type(name, str, "project is", "the name of a package")
     seeds_said = "The seeds must be whole numbers from 0."
     expect(all(isinstance(seed, int) and seed >= 0 for seed in seeds), seeds_said, '("patrol_robot", 4, 5)')
+    if seed := SEED.get():
+        seeds = [seed]
     return grid(*(night.view for night in nights(name, seeds or SEEDS)), columns=1)
 
 
