@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     import nbformat
 
 STUB = re.compile(r"\A(%%node [^\n]*\n|)#\s*Exercise:\s+(\w+)\b")
+FOLD = re.compile(r"<details>\s*<summary>Solution</summary>.*?</details>\s*", re.DOTALL)
 SOLUTION = re.compile(r"<summary>Solution</summary>(.*?)</details>", re.DOTALL)
 PYTHON = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 CHECK = re.compile(r"^check\(\s*[\"'](\w+)[\"']", re.MULTILINE)
@@ -70,6 +71,15 @@ def solved(notebook: nbformat.NotebookNode) -> nbformat.NotebookNode:
         cell = copied.cells[place]
         ((magic, _),) = STUB.findall(cell.source)
         cell.source = f"{magic}# Exercise: {name}\n{code[name]}"
+    return copied
+
+
+def without_solutions(notebook: nbformat.NotebookNode) -> nbformat.NotebookNode:
+    """A copy of `notebook` without the solutions of its exercises."""
+    copied = copy.deepcopy(notebook)
+    for cell in copied.cells:
+        if cell.cell_type == "markdown":
+            cell.source = FOLD.sub("", cell.source).rstrip("\n")
     return copied
 
 

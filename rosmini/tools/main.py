@@ -181,6 +181,7 @@ COMMANDS: dict[str, Entry | Plugged] = {
     "mcap": Entry("rosmini.tools.mcap", "convert between bags and MCAP files, which Foxglove opens", group=OWN),
     "book": Entry("book.tools.book", "build this book and open it", ".", group=BOOK),
     "lab": Entry("book.tools.lab", "open the chapters in JupyterLab", ".", group=BOOK),
+    "assignment": Entry("book.tools.assignment", "write a notebook with chosen exercises", ".", group=BOOK),
     "bench": Entry(
         "rosmini_bench", "measure rosmini beside real ROS and other simulators", "tests/benchmarks", group=BOOK
     ),

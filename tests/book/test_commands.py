@@ -72,6 +72,24 @@ def test_it_is_not_opened_without_a_display_or_against_the_reader_s_will(built, 
     assert opened == []
 
 
+def test_without_solutions_neither_pages_nor_exported_notebooks_have_them(monkeypatch, tmp_path):
+    seen = []
+
+    def build_book(source, output, *, quiet):
+        assert quiet
+        seen.extend(sorted((source / "notebooks").rglob("*.ipynb")))
+        assert seen
+        assert not any("<summary>Solution</summary>" in path.read_text(encoding="utf-8") for path in seen)
+        assert (source / "book" / "_toc.yml").is_file()
+        return output / "_build" / "html" / "index.html"
+
+    monkeypatch.setattr(book, "build_book", build_book)
+    assert main.main(["book", "--no-open", "--without-solutions", "--output", str(tmp_path)]) == 0
+    exported = list((tmp_path / "_build" / "notebooks").rglob("*.ipynb"))
+    assert len(exported) == len(seen)
+    assert not any("<summary>Solution</summary>" in path.read_text(encoding="utf-8") for path in exported)
+
+
 @pytest.mark.parametrize(
     ("platform", "environment", "seen"),
     [

@@ -58,3 +58,13 @@ def test_what_a_check_printed():
     nb = chapter()
     nb.cells[1].outputs = [new_output("stream", name="stdout", text="Exercise stop: right.\n")]
     assert solutions.check_output(nb, "stop") == "Exercise stop: right.\n"
+
+
+def test_a_notebook_without_solutions_keeps_hints():
+    nb = chapter(solution=f"<details>\n<summary>Hint</summary>\n\nSort.\n\n</details>\n\n{TEXT}\n### Exercise 2: Go")
+    text = solutions.without_solutions(nb).cells[2].source
+    assert "Solution" not in text
+    assert "sorted(" not in text
+    assert "Sort." in text
+    assert text.endswith("### Exercise 2: Go")
+    assert "sorted(" in nb.cells[2].source, "the notebook itself was changed"
