@@ -138,6 +138,11 @@ class Layer(Plugin, ABC):
     def on_initialize(self) -> None:
         """Read parameters and subscribe to topics."""
 
+    @property
+    def topics(self) -> tuple[str, ...]:
+        """The resolved names of the topics that the layer subscribes to."""
+        return ()
+
     @abstractmethod
     def update_bounds(self, robot: Pose, bounds: Bounds) -> None:
         """Extend `bounds` to every cell that the layer will change; `robot` is the pose in the costmap's frame."""

@@ -54,6 +54,11 @@ class ObstacleLayer(CostmapLayer, plugin="costmap_2d::ObstacleLayer"):
         self._footprint_clearing = config["footprint_clearing_enabled"]
         return config
 
+    @property
+    def topics(self) -> tuple[str, ...]:
+        """The topics of its sources."""
+        return tuple(self.node.resolve(source.topic) for source in self.sources)
+
     def activate(self) -> None:
         """Subscribe to the sources again."""
         now = self.node.clock.now_ns()

@@ -43,6 +43,11 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
         self._request_map()
         self._server = Server(self.node, LayerConfig, self._reconfigure, namespace=self.namespace)
 
+    @property
+    def topics(self) -> tuple[str, ...]:
+        """The topic of the map and, if subscribed, that of its updates."""
+        return tuple(each.topic for each in self._subscribers)
+
     def _request_map(self) -> None:
         """Read the parameters, subscribe to the map unless already subscribed, and wait for it."""
         node = self.node

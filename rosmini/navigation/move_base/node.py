@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 from rosmini.core.actionlib import SimpleActionServer
 from rosmini.core.dynamic_reconfigure import Server
 from rosmini.core.errors import ROSInterruptException, RosminiError
+from rosmini.core.graph.show import show
 from rosmini.core.tf import TransformListener
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.costmap_2d import FREE_SPACE
@@ -139,6 +140,10 @@ class MoveBase:
     def controller(self) -> Any:
         """The local planner."""
         return self.planners.of[LOCAL]
+
+    def show(self, **options: Any) -> Any:
+        """Return a picture of the loaded parts and the topics that connect them to other nodes."""
+        return show("move_base", self, **options)
 
     def _now(self) -> float:
         return self.node.clock.now_ns() * 1e-9

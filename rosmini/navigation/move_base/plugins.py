@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import ROSInterruptException
+from rosmini.core.graph import Subscriber
 from rosmini.core.plugins import PluginError
 from rosmini.navigation.nav_core import BaseGlobalPlanner, BaseLocalPlanner
 from rosmini.navigation.nav_core.plugin_files import create, short_name
@@ -78,6 +79,10 @@ class Planners:
             raise PluginError(
                 f"initialize() of the {which} planner {name} raised {type(error).__name__}: {error}"
             ) from error
+
+    def subscribed_topics(self, which: str) -> frozenset[str]:
+        """Return the topics that a planner has subscribed to."""
+        return frozenset(each.topic for each in self._handles[which] if isinstance(each, Subscriber))
 
     def _remove_handles(self, which: str) -> None:
         """Remove the publishers, subscribers and services of a planner, so that the next can use the same names."""

@@ -84,6 +84,10 @@ class RecoveryBehavior(Plugin, ABC):
         self.name, self.buffer = name, buffer
         self.global_costmap, self.local_costmap = global_costmap, local_costmap
 
+    def costmaps(self) -> list[Costmap2DROS]:
+        """Return the costmaps that it clears; none by default."""
+        return []
+
     @abstractmethod
     def run_behavior(self) -> None:
         """Run the behaviour to its end. It may block: only the caller's lane waits."""
