@@ -9,7 +9,7 @@ from typing import Any
 
 from rosmini.core.errors import RosminiError, UsageError
 from rosmini.core.geometry import machine_code
-from rosmini.core.graph.notebook import kernel_shell
+from rosmini.core.graph.notebook import has_reader, kernel_shell
 from rosmini.core.packages import PackageIndex
 from rosmini.ros.rospy.importer import install, ros_is_installed, uninstall
 from rosmini.tools import magics
@@ -32,7 +32,7 @@ def load(shell: Any) -> None:
     install(shadow=True)
     if kernel_shell() is not None and not book_form():
         machine_code.show_progress = progress_in_cell
-    if book_form():
+    if book_form() or (kernel_shell() is not None and not has_reader()):
         still_widgets.register(shell)
     report_which_ros()
     session = begin_session(shell)

@@ -1,7 +1,7 @@
-"""The widgets of ipywidgets in the book: a form whose controls are disabled.
+"""The widgets of ipywidgets where nobody can use them, as in the book: a form whose controls are disabled.
 
 In a live notebook ipywidgets shows them itself. Its output refers to the kernel by a new number in each run, so the
-book cannot show it, and a stored output would differ each time.
+book and a page of nbconvert cannot show it, and a stored output would differ each time.
 """
 
 from __future__ import annotations

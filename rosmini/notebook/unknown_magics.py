@@ -1,6 +1,6 @@
-"""Advice on a magic that IPython does not find: load rosmini first, or correct the name.
+"""Advice on a magic or a module of ROS that a cell does not find: load rosmini first, or correct the name.
 
-It is a separate IPython extension, because the first case occurs before ``%load_ext rosmini``: ``rosmini lab`` starts
+It is a separate IPython extension, because the need to load occurs before ``%load_ext rosmini``: ``rosmini lab`` starts
 its kernels with it. ``%load_ext rosmini`` registers it as well.
 """
 
@@ -12,21 +12,25 @@ from typing import Any
 
 _UNKNOWN = re.compile(r"`(%%?\w+)`")
 """How IPython's error names the magic."""
+LOAD = "comes with rosmini: run `%load_ext rosmini` in a cell first"
 
 
 def load_ipython_extension(shell: Any) -> None:
-    """Give advice after each cell of a shell that fails with an unknown magic; harmless when repeated."""
+    """Give advice after each cell of a shell that fails with an unknown magic or module; harmless when repeated."""
     shell.events.register("post_run_cell", advise)
 
 
 def advise(result: Any) -> None:
-    """Print advice on the unknown magic in a failed cell, if rosmini has a similar one."""
-    if type(result.error_in_exec).__name__ == "UsageError":
+    """Print advice on the unknown magic or module in a failed cell, if rosmini has a similar one."""
+    error, advice = result.error_in_exec, ""
+    if type(error).__name__ == "UsageError":
         from IPython.core.getipython import get_ipython
 
-        advice = advice_on(str(result.error_in_exec), get_ipython())
-        if advice:
-            print(f"rosmini: {advice}", file=sys.stderr)
+        advice = advice_on(str(error), get_ipython())
+    elif isinstance(error, ModuleNotFoundError) and error.name:
+        advice = advice_on_module(error.name)
+    if advice:
+        print(f"rosmini: {advice}", file=sys.stderr)
 
 
 def advice_on(message: str, shell: Any) -> str:
@@ -45,8 +49,18 @@ def advice_on(message: str, shell: Any) -> str:
     typed = found[1]
     if is_loaded(shell):
         return nearest(typed, {name for name in own if name.count("%") == typed.count("%")})
-    load = "run `%load_ext rosmini` in a cell first"
     if typed in own:
-        return f"{typed} comes with rosmini: {load}"
+        return f"{typed} {LOAD}"
     hint = nearest(typed, own)
-    return hint and f"{hint} It comes with rosmini: {load}"
+    return hint and f"{hint} It {LOAD}"
+
+
+def advice_on_module(name: str) -> str:
+    """Return advice on a module that Python does not find; empty if it is not in ROS, or rosmini is loaded."""
+    from rosmini.core.packages import PackageIndex
+    from rosmini.ros.rospy.importer import homes, installed
+
+    package = name.partition(".")[0]
+    if installed() or (package not in homes() and package not in PackageIndex()):
+        return ""
+    return f"the module {package} {LOAD}"

@@ -1,4 +1,4 @@
-"""Advice about a magic that IPython does not find, before and after `%load_ext rosmini`."""
+"""Advice about a magic or module that a cell does not find, before and after `%load_ext rosmini`."""
 
 import pytest
 
@@ -18,6 +18,15 @@ def bare(shell, capsys):
 def test_before_rosmini_is_loaded_its_magics_say_what_to_run(bare, cell):
     name = cell.split(maxsplit=1)[0]
     assert f"{name} comes with rosmini: run `%load_ext rosmini`" in bare.fails(cell)
+
+
+@pytest.mark.parametrize("package", ["rospy", "sensor_msgs"])
+def test_before_rosmini_is_loaded_the_modules_of_ros_say_what_to_run(bare, package):
+    missing = f"raise ModuleNotFoundError(name='{package}.msg')"  # a computer with ROS has the module
+    assert f"{package} comes with rosmini: run `%load_ext rosmini`" in bare.fails(missing)
+    assert "load_ext" not in bare.fails("import numpyy")
+    bare.ok("%load_ext rosmini")
+    assert "load_ext" not in bare.fails(missing)
 
 
 @pytest.mark.parametrize(("cell", "meant"), [("%rostopc list", "%rostopic"), ("%%nod a.py\npass", "%%node")])

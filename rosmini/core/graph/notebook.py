@@ -23,6 +23,12 @@ def kernel_shell() -> Any:
     return shell if hasattr(shell, "kernel") else None
 
 
+def has_reader() -> bool:
+    """Return whether somebody can answer the cell that runs. Nobody can when nbconvert or papermill runs it."""
+    shell = kernel_shell()
+    return shell is not None and bool(shell.get_parent().get("content", {}).get("allow_stdin", True))
+
+
 def mark_as_shown(result: object, shell: Any) -> None:
     """Keep IPython from showing a result again at the end of the cell that printed it; later cells show its text."""
     cell = shell.execution_count

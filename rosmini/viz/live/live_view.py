@@ -6,13 +6,13 @@ from abc import abstractmethod
 from collections.abc import Collection
 from typing import Any
 
-from rosmini.core.graph.notebook import kernel_shell
+from rosmini.core.graph.notebook import has_reader
 from rosmini.viz.embed import book_form
 from rosmini.viz.view import MimeBundle, View
 
 
 class LiveView(View):
-    """A view that is a widget in a live notebook, and a page or picture in the book or without a kernel."""
+    """A view that is a widget in a notebook with a reader, and a page or picture elsewhere."""
 
     _link: Any = None
 
@@ -30,7 +30,7 @@ class LiveView(View):
     def _repr_mimebundle_(
         self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
     ) -> MimeBundle:
-        if book_form() or kernel_shell() is None:
+        if book_form() or not has_reader():
             return super()._repr_mimebundle_(include, exclude)
         data, metadata = self.link.widget._repr_mimebundle_() or ({}, {})
         return {**data, "text/plain": self.text}, metadata

@@ -1,5 +1,7 @@
 """What goes between a panel and its page, with the page played by the test and the wall's clock set by it."""
 
+from types import SimpleNamespace
+
 import pytest
 
 from rosmini.core.errors import RosminiError
@@ -119,13 +121,12 @@ def test_the_end_is_told(page):
     assert told["type"] == "gone" and "/rqt_publisher" in told["text"]
 
 
-def test_a_notebook_gets_a_widget_and_a_page_gets_html(page, monkeypatch):
-    monkeypatch.setattr("rosmini.viz.live.live_view.kernel_shell", object)
-    monkeypatch.delenv("ROSMINI_DISPLAY", raising=False)
+@pytest.mark.parametrize(("reader", "display", "live"), [(True, "", True), (True, "book", False), (False, "", False)])
+def test_a_reader_gets_a_widget_and_the_book_and_nbconvert_get_html(page, monkeypatch, reader, display, live):
+    shell = SimpleNamespace(get_parent=lambda: {"content": {"allow_stdin": reader}})
+    monkeypatch.setattr("rosmini.core.graph.notebook.kernel_shell", lambda: shell)
+    monkeypatch.setenv("ROSMINI_DISPLAY", display)
     data, _ = page.panel._repr_mimebundle_()
-    assert "application/vnd.jupyter.widget-view+json" in data
     assert data["text/plain"] == page.panel.text
-    monkeypatch.setenv("ROSMINI_DISPLAY", "book")
-    data, _ = page.panel._repr_mimebundle_()
-    assert set(data) == {"text/plain", "text/html"}
-    assert "disabled" in data["text/html"]
+    assert ("application/vnd.jupyter.widget-view+json" in data) == live
+    assert ("disabled" in data.get("text/html", "")) == (not live)
