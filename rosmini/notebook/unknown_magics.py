@@ -12,6 +12,8 @@ from typing import Any
 
 _UNKNOWN = re.compile(r"`(%%?\w+)`")
 """How IPython's error names the magic."""
+_NOT_WRITTEN = re.compile(r"package [\[']notebook\b|(No module named|cannot import name \S+ from) 'notebook\b")
+"""How errors say that the package of the notebook lacks a script, a launch file or a message."""
 LOAD = "comes with rosmini: run `%load_ext rosmini` in a cell first"
 
 
@@ -27,6 +29,8 @@ def advise(result: Any) -> None:
         from IPython.core.getipython import get_ipython
 
         advice = advice_on(str(error), get_ipython())
+    elif _NOT_WRITTEN.search(str(error)) and "did you mean" not in str(error):
+        advice = "cells with %%node, %%launch, %%msg, %%srv or %%action write the package notebook: run them first"
     elif isinstance(error, ModuleNotFoundError) and error.name:
         advice = advice_on_module(error.name)
     if advice:

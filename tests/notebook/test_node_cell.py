@@ -76,6 +76,15 @@ def test_running_the_cell_again_restarts_it(notebook):
     assert notebook.ok("%rosnode list") == "/rosout\n/talker\n"
 
 
+def test_what_the_earlier_run_cannot_do_any_more_is_not_told(notebook):
+    waiting = (
+        "import rospy\nfrom std_msgs.msg import String\nrospy.init_node('a')\n"
+        "rospy.spin()\nrospy.Subscriber('t', String, print)\n"
+    )
+    notebook.ok(f"%%node a.py\n{waiting}")
+    assert notebook.ok(f"%%node a.py\n{waiting}") == ""
+
+
 def test_what_does_not_end_is_killed_after_three_seconds(notebook):
     stubborn = (
         "import time\nprint('up')\nwhile True:\n    try:\n        time.sleep(1)\n"

@@ -36,6 +36,21 @@ def test_a_mistyped_magic_is_answered_with_the_nearest(notebook, cell, meant):
     assert "load_ext" not in written
 
 
+@pytest.mark.parametrize(
+    "cell",
+    [
+        "%rosrun notebook a.py",
+        "%roslaunch notebook a.launch",
+        "from notebook.msg import Order",
+        "%rosmsg show notebook/A",
+    ],
+)
+def test_what_an_earlier_cell_writes_is_asked_for(notebook, cell):
+    assert "run them first" in notebook.fails(cell)
+    notebook.ok("%%msg Other\nbool fragile")
+    assert "run them first" in notebook.fails(cell)
+
+
 def test_reloading_says_which_nodes_end(notebook):
     assert notebook.ok("%reload_ext rosmini") == ""
     notebook.ok("%%node talker.py\nimport rospy\nrospy.init_node('talker')\nrospy.spin()")

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rosmini.core.errors import ROSInterruptException, ScriptError
+from rosmini.core.errors import ROSException, ROSInterruptException, ScriptError
 from rosmini.core.graph.lanes import LaneExit
 
 from .context import ScriptContext
@@ -166,9 +166,11 @@ class ScriptHandle(LaneHandle):
             self._status = self._exit_status(request)
         except LaneExit:
             pass  # the run is over
-        except ROSInterruptException as error:
-            # In wall-clock time rospy's sleep does not raise it: a loop that polls is_shutdown() just ends
-            if not self._asked and self.scheduler.simulated:
+        except ROSException as error:
+            # In wall-clock time rospy's sleep does not raise the first: a loop that polls is_shutdown() just ends.
+            # In simulated time the reader has run its cell again, and is not told that the node could not go on.
+            is_interrupt = isinstance(error, ROSInterruptException)
+            if not (self._asked if self.scheduler.simulated else is_interrupt):
                 self._failed(error)
         except KeyboardInterrupt as error:
             if self._asked:

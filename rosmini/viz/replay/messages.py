@@ -145,7 +145,7 @@ def _shown(log: Log, topics: Collection[str] | None) -> list[str]:
     """Return the topics that can be shown, without those of transforms."""
     for topic in topics or ():
         if topic not in log.topics:
-            raise ViewError(f"{log.name} has no topic {topic!r}. {nearest(topic, log.topics) or ''}".rstrip())
+            raise ViewError(f"{log.name} has no message on {topic!r}. {nearest(topic, log.topics) or ''}".rstrip())
     return [
         topic
         for topic, kind in sorted(log.topics.items())

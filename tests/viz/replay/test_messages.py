@@ -241,7 +241,7 @@ def test_an_empty_bag_and_one_without_anything_to_see_say_so(bag):
 
 def test_a_topic_or_frame_that_is_not_there_is_named(bag):
     log = BagLog(bag(*driving(1.0)))
-    with pytest.raises(ViewError, match=r"has no topic '/tff'"):
+    with pytest.raises(ViewError, match=r"has no message on '/tff'"):
         run_of(log, topics=["/tff"])
     with pytest.raises(ViewError, match=r"the frame 'moon'.*base_footprint, map, odom"):
         run_of(log, frame="moon")
