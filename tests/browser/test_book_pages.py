@@ -201,3 +201,11 @@ def test_a_click_opens_a_picture_too_and_no_button_is_printed_or_on_a_desktop(bo
     phone.emulate_media(media="screen")
     phone.set_viewport_size({"width": 1280, "height": 900})
     button.wait_for(state="hidden")
+
+
+@pytest.mark.parametrize("paper", ["A4", "Letter"])
+def test_the_cheat_sheet_prints_on_one_page(book_html, chromium, paper):
+    page = chromium.new_page()
+    page.goto((book_html / "book" / "cheat_sheet.html").as_uri())
+    assert page.pdf(format=paper).count(b"/Type /Page\n") == 1
+    page.close()
