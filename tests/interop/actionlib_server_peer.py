@@ -25,6 +25,15 @@ def wait(condition, what):
         rospy.sleep(0.002)
 
 
+def wait_for_listener(server):
+    """Wait until somebody receives the results of a server.
+
+    A subscriber counts a connection before the publisher does, and what is published in between is lost.
+    """
+    results = server.result_pub
+    wait(getattr(results, "get_num_connections", None) or results.num_connections, "a listener to its results")
+
+
 class Bench:
     """A server, and what it is told and says."""
 
@@ -42,9 +51,7 @@ class Bench:
         self.cancel = rospy.Publisher(name + "/cancel", GoalID, queue_size=10)
         wait(lambda: self.goal.get_num_connections() and self.cancel.get_num_connections(), "the server")
         wait(ear.get_num_connections, "its results")
-        # A subscriber counts a connection before the publisher does, and what is published in between is lost.
-        results = self.server.result_pub
-        wait(getattr(results, "get_num_connections", None) or results.num_connections, "a listener to its results")
+        wait_for_listener(self.server)
 
     def count(self, message):
         self.heard += 1
@@ -153,6 +160,7 @@ facts["fresh"] = [
 simple.start()
 client = actionlib.SimpleActionClient("simple", TestAction)
 client.wait_for_server()
+wait_for_listener(simple.action_server)
 facts["simple"] = [client.send_goal_and_wait(TestAction().action_goal.goal)]
 facts["simple"].append([one.status.status for one in simple.action_server.status_list])
 wait(lambda: not simple.action_server.status_list, "the simple server's list to be empty")
