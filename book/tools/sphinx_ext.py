@@ -16,6 +16,7 @@
 - The substitutions `repository_copy` and `reading_hours` are computed: the first from the one setting with the
   repository's address (`repository.url` in `_config.yml`), the second from the notebooks.
 - The first use of a term leads to the glossary, and the index is collected (`book.tools.subject_index`).
+- The directive `progress-list` lists pages and exercises to tick (`book.tools.progress`).
 - A notebook that a reader downloads begins with a cell that says how to get what it needs.
 """
 
@@ -36,7 +37,7 @@ from sphinx import addnodes
 from sphinx.transforms import SphinxTransform
 from sphinx.util.docutils import SphinxDirective
 
-from book.tools import notebooks, reading, reference, subject_index
+from book.tools import notebooks, progress, reading, reference, subject_index
 from book.tools.captions import CAPTION
 from book.tools.lexer import CellLexer
 from book.tools.pages import VIEWER_CALL
@@ -431,6 +432,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_transform(QuoteBoxes)
     app.add_transform(Captions)
     subject_index.setup(app)
+    progress.setup(app)
     app.add_directive("drawing", Drawing)
     app.add_directive("stored", Stored)
     app.add_directive("parameters", reference.ParameterTables)
