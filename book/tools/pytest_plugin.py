@@ -7,9 +7,12 @@ tests do not contact that user's Master. ``PYTHONDONTWRITEBYTECODE`` only keeps 
 
 from __future__ import annotations
 
+import importlib
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from typing import Any
 
 import pytest
 
@@ -19,8 +22,26 @@ OF_ROS = ("ROS_", "ROSLISP_", "TURTLEBOT3_")
 """How the names of variables begin that belong to a ROS on this machine."""
 
 
+def starting_twice(start: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a function that starts a kernel, a second time if it dies at once.
+
+    jupyter_client finds free ports and releases them before the kernel takes them: another process can be faster.
+    """
+
+    def started(*arguments: Any, **options: Any) -> Any:
+        try:
+            return start(*arguments, **options)
+        except RuntimeError:
+            return start(*arguments, **options)
+
+    return started
+
+
 def pytest_configure(config: pytest.Config) -> None:
     """Set up the environment that the tests' processes inherit."""
+    with suppress(ImportError):
+        kernel = importlib.import_module("nbval.kernel")
+        vars(kernel)["start_new_kernel"] = starting_twice(kernel.start_new_kernel)
     for name in [name for name in os.environ if name.startswith(OF_ROS)]:
         del os.environ[name]
     # Hundreds of processes start here, and a kernel that has to compile all modules takes three times as long.

@@ -175,6 +175,8 @@ def test_a_pad_without_a_robot_and_a_kernel_that_restarts(open_lab, shared_tmp):
         page.locator(".rp-pill", has_text="run the cell of this pad again").wait_for()
         lab.run(0)
         page.locator(".rp-pill", has_text="press a key").or_(page.locator(".rp-pill", has_text="live")).wait_for()
+        lab.run(1)
+        lab.says(1, "sent False")  # so the first cell has ended, and the pad is that of the new kernel
         stage.focus()
         page.keyboard.press("w")
         lab.mood("driving")
