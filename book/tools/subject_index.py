@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter, defaultdict
+from dataclasses import fields
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,6 +20,7 @@ from sphinx import addnodes
 from sphinx.transforms import SphinxTransform
 from sphinx.util.docutils import SphinxDirective
 
+from book.tools.reference import declared
 from rosmini.tools.main import COMMANDS
 
 if TYPE_CHECKING:
@@ -36,15 +38,18 @@ NOT_INDEXED = (
     "book/glossary",
     "book/commands",
     "book/bibliography",
+    "book/cheat_sheet",
+    "book/for_your_course",
+    "book/progress",
     "book/subject_index",
 )
+"""Pages about the book, and lists: an entry leads to the page that explains it."""
 LINE = re.compile(
     r"^\s*(?:\$ |!)?(?:uv run )?(?:rosmini )?(?P<magic>%{0,2})(?P<name>[a-z]\w*)(?: (?P<verb>[a-z_]+)\b)?"
 )
 """A line of a cell or a terminal."""
 TYPE = re.compile(r"\b([a-z]\w+)/([A-Z]\w+)\b")
 IMPORT = re.compile(r"^from (\w+)\.(?:msg|srv) import (.+)$", re.MULTILINE)
-DECLARATION = re.compile(r"^ {4}(\w+): .*= parameter\(", re.MULTILINE)
 
 
 @cache
@@ -52,6 +57,14 @@ def terms() -> dict[str, str]:
     """The terms of the glossary, by themselves in lower case."""
     page = (CHECKOUT / "book" / "glossary.md").read_text(encoding="utf-8")
     return {term.lower(): term for term in re.findall(r"^(\S.*)\n {4}\S", page, re.MULTILINE)}
+
+
+@cache
+def plain_names() -> re.Pattern[str]:
+    """A pattern for the terms that a text can mention unmarked: names, and those of several words."""
+    found = [term for term in terms().values() if not term.islower() or re.search(r"^ros|[ _]", term)]
+    longest_first = sorted(found, key=len, reverse=True)
+    return re.compile(rf"(?<![\w/])({'|'.join(map(re.escape, longest_first))})s?(?![\w/])")
 
 
 @cache
@@ -69,8 +82,7 @@ def types() -> frozenset[str]:
 @cache
 def parameters() -> frozenset[str]:
     """The parameters that nodes declare and whose name is no everyday word."""
-    sources = (path.read_text(encoding="utf-8") for path in sorted(CHECKOUT.glob("rosmini/[nsr]*/**/*.py")))
-    names = {name for source in sources for name in DECLARATION.findall(source)}
+    names = {each.name for kinds in declared().values() for kind in kinds for each in fields(kind)}
     return frozenset(name for name in names if not name.islower() or "_" in name)
 
 
@@ -198,12 +210,7 @@ def mentions(node: nodes.Node) -> Iterator[tuple[str, str]]:
 def names_in(node: nodes.Node) -> Iterator[tuple[str, str]]:
     """The terms of several words, and those that are names, which one text of a paragraph contains."""
     if isinstance(node, nodes.Text) and isinstance(node.parent, (nodes.paragraph, nodes.literal)):
-        words = set(re.findall(r"[\w*/]+(?:'s)?", text := node.astext()))
-        for term in terms().values():
-            is_name = not term.islower() or "_" in term or term.startswith("ros")
-            is_there = term in words if " " not in term else re.search(rf"(?<!\w){re.escape(term)}s?(?!\w)", text)
-            if is_there and (is_name or " " in term):
-                yield "terms", term
+        yield from (("terms", term) for term in dict.fromkeys(plain_names().findall(node.astext())))
 
 
 class index_list(nodes.General, nodes.Element):  # noqa: N801  (docutils names nodes like this)

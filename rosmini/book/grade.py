@@ -37,7 +37,7 @@ WHOLE = 5
 START = 120.0
 """Longest time in which the process of a submission starts, on a busy machine [s]."""
 PROCESSES = 64
-"""Largest number of processes and of those of a submission that run at the same time."""
+"""Largest number of processes that a submission may have at the same time."""
 MARK = "ROSMINI_SUBMISSION"
 """Environment variable that all processes of a submission have."""
 PERIOD = 0.1
