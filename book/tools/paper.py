@@ -132,8 +132,6 @@ def _make_still(soup: BeautifulSoup, name: str) -> None:
         moving.insert_after(note)
     for unused in soup.select(UNUSED):
         unused.decompose()
-    for section in soup.select("section[role]"):
-        del section["role"]  # EPUB allows few roles there
     for form in soup.select("input, select, button, label, fieldset"):
         chosen = form.select("option[selected]") or form.select("option")[:1] if form.name == "select" else []
         value = chosen[0].get_text() if chosen else str(form.get("value", ""))

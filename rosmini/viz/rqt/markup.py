@@ -25,7 +25,7 @@ def page(title: str, parts: Iterable[Part], *, live: bool) -> str:
     # Each control by itself: in a disabled fieldset, the keyboard would not reach the tables that scroll either.
     body = element("fieldset", form if live else CONTROL.sub(r"<\1 disabled", form))
     return element(
-        "section", f"<style>{CSS}</style>{head}{body}{note}", class_=NAME, role="group", aria_label=title,
+        "div", f"<style>{CSS}</style>{head}{body}{note}", class_=NAME, role="group", aria_label=title,
         data_lm_suppress_shortcuts="true",
     )  # fmt: skip
 

@@ -47,7 +47,7 @@ def test_every_panel_opens_shows_itself_and_closes(window, graph, panel):
     graph.run(0.2)
     assert type(opened) is panel
     assert f"[{panel.heading}]" in window.text
-    assert window.markup(live=True).count("<section") >= 2
+    assert 'class="rq-box"' in window.markup(live=True)
     window.close()
     assert not any("rqt" in name for name in graph.nodes)
 
