@@ -2,7 +2,17 @@
 
 from __future__ import annotations
 
+from rosmini.book import checks
+
 from .conftest import all_printed
+
+
+def test_a_topic_without_a_publisher_is_explained():
+    """What the reader saw was a bare KeyError."""
+    verdict = checks.find("drivers").grade(lambda state, topic: sorted(dict(state[0])[topic]))
+    assert not verdict
+    assert "no node publishes" in verdict.text
+    assert "return an empty list" in verdict.text
 
 
 def test_the_robot_arrived_on_a_map_that_grew(figures):

@@ -60,6 +60,7 @@ MISTAKES = {
     ],
     "drivers": [
         lambda: lambda state, topic: dict(state[0])[topic],
+        lambda: lambda state, topic: sorted(dict(state[0])[topic]),
         lambda: (
             lambda state, topic: sorted(n for part in state for name, nodes in part if name == topic for n in nodes)
         ),
