@@ -15,6 +15,7 @@ from typing import Any, Generic, Protocol, TypeVar
 
 from rosmini.core.errors import RosminiError, shown
 
+from .stacks import held_lock, yielding
 from .threads import MAIN_THREAD
 
 SWEEP_FROM = 1_024
@@ -107,8 +108,7 @@ class Inbox(Generic[T]):
 
     def __init__(self) -> None:
         self._items: deque[T] = deque()
-        self._bell = threading.Lock()  # free if something has arrived since the last wait
-        self._bell.acquire()
+        self._bell = held_lock()  # free if something has arrived since the last wait
         self.sleeper: Sleeper | None = None
 
     def put(self, item: T) -> None:
@@ -121,6 +121,7 @@ class Inbox(Generic[T]):
         with suppress(RuntimeError):  # it was already free
             self._bell.release()
 
+    @yielding
     def empty(self) -> bool:
         """Return True if the inbox is empty."""
         return not self._items

@@ -14,14 +14,13 @@ from collections import deque
 from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
 
-from greenlet import GreenletExit
+from .stacks import GreenletExit
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from greenlet import greenlet
-
     from .scheduler import Scheduler
+    from .stacks import greenlet
 
 
 PATIENCE_S = 2.0

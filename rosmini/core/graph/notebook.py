@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from rosmini.core.errors import RosminiError, short_traceback
 
 if TYPE_CHECKING:
-    from greenlet import greenlet
+    from .stacks import greenlet
 
 
 def kernel_shell() -> Any:

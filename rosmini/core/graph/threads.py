@@ -10,11 +10,10 @@ from pathlib import Path
 from signal import SIGINT
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
-from greenlet import GreenletExit, getcurrent, greenlet
-
 from rosmini.core.errors import ROSInterruptException
 
 from .lanes import Lane, LaneExit, Waiter
+from .stacks import GreenletExit, getcurrent, greenlet
 
 if TYPE_CHECKING:
     import weakref
