@@ -1,4 +1,4 @@
-"""Pages that the build makes from the code: the parameters of all nodes and plugins, and the public Python API."""
+"""Pages that the build makes: parameters of nodes and plugins, the public Python API, and differences from ROS."""
 
 from __future__ import annotations
 
@@ -6,8 +6,10 @@ import importlib
 import inspect
 import pkgutil
 import re
+import tomllib
 from collections import defaultdict
 from dataclasses import fields
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from docutils import nodes
@@ -101,6 +103,33 @@ def _table(kind: type[Parameters]) -> Iterator[str]:
 
 LONG = re.compile(r"\d+\.\d{5,}")
 """A number with many digits, such as pi / 6."""
+
+
+FIDELITY = Path(__file__).resolve().parents[1] / "about" / "fidelity.toml"
+
+
+def fidelity() -> dict[str, list[dict[str, str]]]:
+    """Return the rows of each area: `subject`, `ros`, `test`, and `rosmini` where that differs from ROS 1."""
+    return tomllib.loads(FIDELITY.read_text(encoding="utf-8"))
+
+
+class FidelityTables(Generated):
+    """What ROS 1 and rosmini do, and the tests that show it: a section with a table for each area."""
+
+    def lines(self) -> Iterator[str]:
+        """Return the sections."""
+        for area, rows in fidelity().items():
+            yield from (f"## {area}", "", "| subject | ROS 1 | rosmini | test |", "|---|---|---|---|")
+            for row in rows:
+                file, _, function = row["test"].partition("::")
+                shown = f"*{function.removeprefix('test_').replace('_', ' ')}*, `{file}`"
+                yield f"| {row['subject']} | {row['ros']} | {row.get('rosmini', 'The same.')} | {shown} |"
+            yield ""
+
+    def run(self) -> list[nodes.Node]:
+        """Return the content; the page is built again when a row changes."""
+        self.env.note_dependency(str(FIDELITY))
+        return super().run()
 
 
 class Interface(Generated):

@@ -437,6 +437,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("stored", Stored)
     app.add_directive("parameters", reference.ParameterTables)
     app.add_directive("interface", reference.Interface)
+    app.add_directive("fidelity", reference.FidelityTables)
     for language in ("python", "ipython3"):  # of fences, and of cells
         app.add_lexer(language, CellLexer)
     app.connect("config-inited", substitute)

@@ -85,3 +85,5 @@ def test_a_quaternion_is_brought_to_length_one_or_refused():
     assert rigid((1, 2, 3), (0, 0, 2, 0)) == (1, 2, 3, 0, 0, 1, 0)
     with pytest.raises(InvalidArgumentException, match="w=0"):
         rigid((0, 0, 0), (0, 0, 0, 0))
+    with pytest.raises(InvalidArgumentException, match="z=nan"):
+        rigid((0, 0, 0), (0, 0, math.nan, 1))
