@@ -113,6 +113,7 @@ def test_a_command_says_what_is_missing_outside_a_checkout(python, tmp_path, com
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.nightly
 def test_a_chapter_runs_with_it(python, tmp_path):
     chapter = shutil.copy(CHAPTER, tmp_path)
     run(python, "-m", "pytest", "-p", "no:cacheprovider", "--nbval", "--nbval-current-env", chapter, cwd=tmp_path)

@@ -11,6 +11,7 @@ from assets.generate import moving
 FILMS = sorted(moving.FILMS.glob("*.svg"))
 
 
+@pytest.mark.nightly
 def test_a_committed_film_is_what_the_generator_makes():
     made = moving.ten_robots()
     assert (moving.FILMS / "ten.svg").read_text(encoding="utf-8") == made, "run `python -m assets.generate.moving`"

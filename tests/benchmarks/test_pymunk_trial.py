@@ -17,6 +17,7 @@ def test_the_table_is_made_of_the_stored_figures():
     assert all(len(row) == len(WAYS) for rows in figures.values() for row in rows.values())
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize(("way", "same"), zip(WAYS, (True, False, True), strict=True))
 def test_only_one_lasting_space_does_not_continue_from_a_saved_state_as_without_saving(way, same):
     first = pymunk_trial.run(pymunk_trial.penned(WAYS[way]))

@@ -236,10 +236,10 @@ each_exercise = pytest.mark.parametrize("found", list(all_exercises()), ids=lamb
 
 
 def wrong_answers(found, *, at_night):
-    """The first two scripts or files, which are run, and all answers of other kinds; at night the rest."""
+    """The first script or file, which is run, and all answers of other kinds; at night the rest."""
     for number, mistake in enumerate(mistakes_of(found)):
         answer = mistake()
-        if at_night == (number >= 2 and isinstance(answer, Script | str)):
+        if at_night == (number >= 1 and isinstance(answer, Script | str)):
             yield answer
 
 

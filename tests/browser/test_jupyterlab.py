@@ -46,6 +46,7 @@ def lab(open_in_lab):
     return open_in_lab(CELLS)
 
 
+@pytest.mark.nightly
 def test_a_button_publishes_between_cells_and_while_a_cell_is_busy(lab, chromium, shared_tmp):
     page = chromium.new_page(viewport={"width": 1280, "height": 1400})
     page.goto(lab)

@@ -156,6 +156,7 @@ def test_keys_buttons_and_a_busy_kernel(open_lab, jupyterlab, shared_tmp):
         page.screenshot(path=shared_tmp / "pad_end.png")
 
 
+@pytest.mark.nightly
 def test_a_pad_without_a_robot_and_a_kernel_that_restarts(open_lab, shared_tmp):
     lab = open_lab(BLIND)
     page = lab.page

@@ -466,6 +466,7 @@ def test_in_print_and_without_scripts_the_still_picture_is_there(write, opened, 
     assert page.locator(".rosmini-still svg").is_visible()
 
 
+@pytest.mark.nightly
 def test_in_jupyterlab_its_keys_are_its_own(open_in_lab, chromium, shared_tmp):
     cells = [
         """

@@ -56,6 +56,7 @@ class Lab:
         self.control(number, key).press("Enter")
 
 
+@pytest.mark.nightly
 def test_a_service_is_called_and_a_window_publishes_and_plots(open_in_lab, chromium, shared_tmp):
     page = chromium.new_page(viewport={"width": 1280, "height": 1800})
     try:

@@ -374,6 +374,7 @@ def _calls(path: Path, data: str | bytes) -> tuple[int, bool]:
     return calls, refused
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("family", FAMILIES)
 def test_a_costly_file_costs_in_proportion_to_its_length_or_is_refused(family, tmp_path):
     name, make, n, refused, beside = FAMILIES[family]

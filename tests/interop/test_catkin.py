@@ -65,6 +65,7 @@ def fill(package: Path) -> None:
     (package / "scripts/hello.py").chmod(0o755)
 
 
+@pytest.mark.nightly
 def test_one_workspace_built_by_both_gives_real_ros_the_same_messages(tmp_path: Path, env: dict[str, str]) -> None:
     for name in ("ours", "theirs"):
         (tmp_path / name / "src").mkdir(parents=True)

@@ -100,6 +100,7 @@ NEEDED = {f"multi_turtlebot3_{what}.launch": ["ns:=tb3_0"] for what in ("navigat
 """The arguments that launch files have no defaults for."""
 
 
+@pytest.mark.nightly
 def test_our_own_launch_files_mean_the_same(environment: dict[str, str]) -> None:
     files = [file for file in sorted(OURS.rglob("*.launch")) if "standalone" not in file.name]
     assert len(files) > 8

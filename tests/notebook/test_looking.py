@@ -12,6 +12,7 @@ ROBOT = "%rosrun rosmini_sim simulator _world:=room"
 DRIVE = "%rostopic pub -1 /cmd_vel geometry_msgs/Twist '{linear: {x: 0.2}}'"
 
 
+@pytest.mark.nightly
 def test_a_robot_is_shown_recorded_and_replayed(notebook: Notebook) -> None:
     notebook.ok(f"import rosmini\n{ROBOT}")
     assert "burger: pose (0.00, 0.00" in notebook.ok("%show")

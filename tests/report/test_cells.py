@@ -2,6 +2,8 @@
 
 import re
 
+import pytest
+
 from .command_lines import LINES
 
 TALKER = """%%node talker.py
@@ -19,6 +21,7 @@ while not rospy.is_shutdown():
 """
 
 
+@pytest.mark.nightly
 def test_the_lines_of_the_report_work_in_cells(notebook, tmp_path, monkeypatch):
     """Each prints what it should, or its error names the right form; in the order of the report, in one notebook."""
     (tmp_path / "example_ws" / "src").mkdir(parents=True)

@@ -2,11 +2,14 @@
 
 import shutil
 
+import pytest
+
 from rosmini.core.packages import assets_dir
 
 STAGE = "%roslaunch navigation_stage move_base_gmapping_5cm.launch"
 
 
+@pytest.mark.nightly
 def test_a_goal_and_exploration_on_stage(notebook, tmp_path, monkeypatch):
     """9.3 and 9.4: the launch files, the nodes that they start twice, the map that is saved, and the slips."""
     monkeypatch.chdir(tmp_path)

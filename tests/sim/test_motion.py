@@ -112,6 +112,7 @@ def test_a_walker_keeps_its_distance_however_it_meets_a_robot(keep):
     assert engine.pose("walker")[0] == pytest.approx(3.0 - 0.105 - 0.2 - keep, abs=0.005)
 
 
+@pytest.mark.nightly
 def test_a_walker_keeps_its_distance_beside_a_robot_too():
     engine = make(replace(WALKER, motion=replace(WALKER.motion, patience=60.0)))
     engine.add("burger", BURGER, (3.0, 0.45, math.pi))  # its side is 4.5 cm from where the walker would pass
@@ -124,6 +125,7 @@ def test_a_walker_keeps_its_distance_beside_a_robot_too():
     assert passed.pose("walker")[0] == pytest.approx(5.5)
 
 
+@pytest.mark.nightly
 def test_a_walker_who_has_waited_for_long_goes_round_the_other_way_until_it_has_to_wait_again():
     square = Walk(((0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)), speed=0.5, patience=5.0)
     engine = make(replace(WALKER, motion=square))
@@ -156,6 +158,7 @@ def test_a_robot_that_drives_into_a_walker_stops_there_and_moves_it_nowhere():
     assert engine.pose("walker")[0] == 0.0
 
 
+@pytest.mark.nightly
 def test_a_walker_whose_way_is_free_is_not_held_by_who_pushes_it_from_behind():
     engine = make(replace(WALKER, motion=Walk(((0.0, 0.0), (6.0, 0.0)), speed=0.1)))
     engine.add("burger", BURGER, (-0.3, 0.0, 0.0))

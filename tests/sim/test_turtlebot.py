@@ -127,6 +127,7 @@ def errors(odometry, seconds, v, w, seeds):
     return np.array(found)
 
 
+@pytest.mark.nightly
 def test_a_robot_that_stands_drifts_by_its_gyroscope_and_not_by_its_wheels():
     off = errors("imu", 10.0, 0.0, 0.0, range(12))
     step = BURGER.unit.gyro_step * 10.0

@@ -79,6 +79,7 @@ def listings() -> str:
     return plain("\n".join(re.findall(r"^```console\n(.*?)^```", text, re.DOTALL | re.MULTILINE)))
 
 
+@pytest.mark.nightly
 def test_one_teleop_drives_two_turtles_as_chapter_63_shows(site: Site, hosts: Hosts, watcher: Peer) -> None:
     """One turtlesim beside the Master, one on another host, and a teleop; each prints what the chapter lists."""
     shown = listings()
@@ -200,6 +201,7 @@ def named(host: Host, name: str, hosts_file: Path) -> Host:
     return host._replace(within=[*host.within, *words])
 
 
+@pytest.mark.nightly
 def test_two_hosts_that_know_each_other_by_name_answer_each_other(hosts: Hosts, tmp_path: Path) -> None:
     """Each answers calls for its own host name, from real nodes and ours; roscore refuses those for another name."""
     if not hosts.are_apart or os.geteuid() != 0:

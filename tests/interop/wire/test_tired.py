@@ -186,6 +186,7 @@ def test_a_master_dies_and_returns(stage: Stage, kind: str) -> None:
     assert late.ask("call", "/mend", INFO, {}) == ANSWER
 
 
+@pytest.mark.nightly
 def test_the_network_goes_down_and_up(stage: Stage) -> None:
     """What was published meanwhile arrives, our nodes say what happened, and no thread or descriptor is left of it.
 

@@ -98,6 +98,7 @@ def test_explore_lite_ends_by_itself(graph, tmp_path):
     assert graph.nodes["/explore"].program.sent >= 1
 
 
+@pytest.mark.nightly
 def test_frontier_exploration_ends_by_itself_and_the_older_nodes_are_ended(graph, tmp_path):
     trial = Trial(graph, tmp_path, with_settings(STACK))
     graph.run(3.0)

@@ -5,6 +5,8 @@ import math
 import re
 from types import SimpleNamespace
 
+import pytest
+
 from rosmini.core.actionlib import SimpleActionClient, Status
 from rosmini.core.errors import ServiceException
 from rosmini.core.packages import assets_dir
@@ -190,6 +192,7 @@ def test_a_simple_goal_another_one_and_a_cancellation(graph):
     assert rig.move_base.goal is None
 
 
+@pytest.mark.nightly
 def test_of_the_goals_that_arrive_before_the_action_server_the_newest_is_reached(graph):
     desk = graph.node("desk").publisher("move_base_simple/goal", PoseStamped, latch=True)
     for x in (1.9, 0.8):
@@ -218,6 +221,7 @@ def test_goals_that_are_none(graph):
         assert re.search(why, rig.said()[before:]), why
 
 
+@pytest.mark.nightly
 def test_recoveries_run_in_their_order_and_the_list_ends(graph):
     rig = start(graph)
     statuses = []
@@ -271,6 +275,7 @@ def test_planners_change_at_run_time(graph):
     assert "/move_base/NavfnROS/plan" in graph.nodes["/move_base"].publications
 
 
+@pytest.mark.nightly
 def test_a_planner_that_never_returns(graph):
     rig = start(graph)
     change(rig, base_global_planner="test_node/Endless", recovery_behavior_enabled=False, planner_patience=2.0)
@@ -303,6 +308,7 @@ def test_make_plan(graph):
     assert "must be in an inactive state" in ask(1.0, 0.0)
 
 
+@pytest.mark.nightly
 def test_careful_plans_keep_the_robots_width_and_it_backs_out_of_a_corner(graph):
     """Its nose is between boxes: neither ahead nor round, the corners of its outline would hit them."""
     rig = start(graph, careful=True)
@@ -336,6 +342,7 @@ def walled_in(rig):
     return names
 
 
+@pytest.mark.nightly
 def test_a_robot_that_is_walled_in_says_so_and_goes_on_when_it_is_freed(graph):
     """Nothing is played here: lasers see the boxes, the planner finds no way, recoveries run, the goal is aborted."""
     rig = start(graph)

@@ -96,6 +96,7 @@ ROBOT = """
 """
 
 
+@pytest.mark.nightly
 def test_two_maps_by_gmapping_in_one_world_are_one(graph, tmp_path):
     """By the launch files: two robots in the room, each maps what it sees from where it stands."""
     file = tmp_path / "two.launch"

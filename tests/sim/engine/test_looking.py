@@ -75,7 +75,7 @@ def crowd():
     return engine
 
 
-SCENES = [struck, two_that_push_one, along_a_wall, yard, crowd]
+SCENES = [struck, two_that_push_one, along_a_wall, yard, *nightly(crowd)]
 
 
 def told(engine, seed):
@@ -156,7 +156,7 @@ def test_who_looks_or_saves_changes_nothing(scenery, seed, look):
     assert run(scenery(), seed, look) == run(scenery(), seed)
 
 
-@pytest.mark.parametrize("scenery", [yard, crowd, *nightly(struck, two_that_push_one, along_a_wall)])
+@pytest.mark.parametrize("scenery", [yard, *nightly(struck, two_that_push_one, along_a_wall, crowd)])
 def test_with_numba_and_without_everything_is_equal_to_the_last_bit(scenery, monkeypatch):
     pytest.importorskip("numba")
     for kernel in scene.KERNELS.values():

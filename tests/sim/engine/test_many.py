@@ -46,6 +46,7 @@ def test_a_robot_between_a_stronger_one_and_a_wall_is_not_pushed_through_the_wal
     assert engine.pose("strong")[0] == pytest.approx(0.2 - 0.146 - 0.077, abs=1e-3)
 
 
+@pytest.mark.nightly
 def test_a_row_of_robots_pushes_as_one():
     engine = Engine(World("void"), generator, noise=0.0)
     for i in range(4):

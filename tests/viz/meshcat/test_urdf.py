@@ -91,8 +91,7 @@ def test_what_cannot_be_shown(make, error, message):
     ("name", "size"),
     [
         ("burger", "0.138 x 0.179 x 0.192"),
-        ("waffle_pi", "0.282 x 0.307 x 0.142"),
-        *nightly(("waffle", "0.270 x 0.307 x 0.142")),
+        *nightly(("waffle_pi", "0.282 x 0.307 x 0.142"), ("waffle", "0.270 x 0.307 x 0.142")),
     ],
 )
 def test_turtlebot3(name, size):

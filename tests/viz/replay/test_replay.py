@@ -198,6 +198,7 @@ def test_a_minute_with_its_scans_weighs_less_than_300_kb_and_an_hour_too():
     assert len(json.dumps(data)) < 260_000
 
 
+@pytest.mark.nightly
 def test_two_minutes_with_a_map_and_a_costmap_weigh_less_than_300_kb(monkeypatch):
     two = run(120.0)
     rng = np.random.default_rng(0)
