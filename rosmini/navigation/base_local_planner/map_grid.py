@@ -81,7 +81,7 @@ def densified(points: Floats, resolution: float) -> Floats:
         return points
     steps = np.diff(points, axis=0)
     squares = steps[:, 0] ** 2 + steps[:, 1] ** 2
-    parts = np.where(squares > resolution * resolution, np.ceil(np.sqrt(squares) / resolution), 1).astype(np.int64)
+    parts = np.where(squares > resolution * resolution, np.ceil(np.sqrt(squares) / resolution), 1).astype(np.intp)
     if int(parts.max()) == 1:
         return points
     starts = np.repeat(np.arange(len(parts)), parts)

@@ -106,7 +106,7 @@ def passed_cells(first: Integers, last: Integers) -> tuple[Integers, Integers]:
     """
     span = (last - first).astype(np.float64)
     steps = np.abs(span).max(axis=1)
-    count = steps.astype(np.int64)
+    count = steps.astype(np.intp)
     before = np.cumsum(count) - count
     step = np.arange(before[-1] + count[-1]) - np.repeat(before, count)
     # The values are multiples of 1 / steps plus half of that, so that rounding errors have no effect.

@@ -160,7 +160,7 @@ def _pairs(
     least, most = (rays[:, :1], rays[:, 1:] - 1.0) if len(rays) else (0.0, count - 1.0)
     low = np.maximum(np.ceil(begins / pitch), least).ravel()
     high = np.minimum(np.floor(ends / pitch), most).ravel()
-    lengths = np.maximum(high - low + 1, 0.0).astype(np.int64)
+    lengths = np.maximum(high - low + 1, 0.0).astype(np.intp)
     upto = np.cumsum(lengths)
     total = int(upto[-1]) if len(upto) else 0
     cuts = [0, *np.searchsorted(upto, np.arange(BLOCK, total, BLOCK)).tolist(), len(upto)]

@@ -82,7 +82,7 @@ def _places(loops: list[Ints]) -> _Places:
         points.append(np.concatenate([loop, (loop + ways / 2)[step]])[order])
         corner.append(order < len(loop))
         sizes.append(len(order))
-    size = np.array(sizes, dtype=np.int64)
+    size = np.array(sizes, dtype=np.intp)
     return _Places(
         np.concatenate(points),
         np.concatenate(corner),
