@@ -28,6 +28,17 @@ def test_a_folder_is_made_and_removed(tmp_path, monkeypatch):
     other.remove()
 
 
+def test_a_folder_stays_where_every_lock_is_granted(tmp_path, monkeypatch):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    monkeypatch.setattr("sys.platform", "emscripten")
+    monkeypatch.setattr("rosmini.notebook.folder._take", lambda file: None)
+    folder, other = TemporaryFolder(), TemporaryFolder()
+    assert folder.path.is_dir()
+    assert other.path.is_dir()
+    folder.remove()
+    other.remove()
+
+
 def test_what_a_killed_process_left_is_removed_by_the_next(tmp_path, monkeypatch):
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     (tmp_path / "rosmini-of-somebody-else").mkdir()

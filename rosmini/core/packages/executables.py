@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import os
+import sys
 from dataclasses import dataclass, field
 from importlib.metadata import EntryPoint
 from pathlib import Path
 from typing import Any
 
 from rosmini.core.errors import ScriptError
+
+from .folders import assets_dir
 
 NODES_GROUP = "rosmini.nodes"
 """The entry-point group of built-in nodes; its names are ``package/executable``."""
@@ -107,11 +110,20 @@ def _can_run(path: Path, package: Path) -> bool:
     if is_script and not is_module:
         return True
     if os.name == "nt":  # Windows has no run bit: look for the first two bytes of a script
-        with path.open("rb") as file:
-            return file.read(2) == b"#!"
+        return _has_shebang(path)
     return has_run_bit(path)
 
 
+def _has_shebang(path: Path) -> bool:
+    with path.open("rb") as file:
+        return file.read(2) == b"#!"
+
+
 def has_run_bit(path: Path) -> bool:
-    """Return whether the file is executable."""
-    return os.access(path, os.X_OK)
+    """Return whether the file is executable.
+
+    On Emscripten wheels are unpacked without run bits, so a script of rosmini's own packages counts as executable.
+    """
+    if os.access(path, os.X_OK):
+        return True
+    return sys.platform == "emscripten" and path.is_relative_to(assets_dir()) and _has_shebang(path)
