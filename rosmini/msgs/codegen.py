@@ -17,13 +17,12 @@ import struct
 from types import CodeType
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
+from rosmini.core.lazy import np
 from rosmini.core.time import Duration, Time
 
 from . import fields
 from .definition import BYTES, FORMATS
-from .fields import DTYPES
+from .fields import dtype_of
 from .limits import MAX_EMPTY, measured
 
 if TYPE_CHECKING:
@@ -235,7 +234,7 @@ class Generator:
         wrong = [
             f"type({v}) is not {self.use('ndarray', np.ndarray)}",
             f"type({v}.base) is not {self.use('_bytes', bytes)}",
-            f"{v}.dtype is not {self.use(f'dtype_{field.base}', DTYPES[field.base])}",
+            f"{v}.dtype is not {self.use(f'dtype_{field.base}', dtype_of(field.base))}",
             f"{v}.ndim != 1",
             f"not {v}.flags.c_contiguous",
         ]
@@ -430,8 +429,8 @@ class Generator:
             elif kind == "bool":
                 value = f"{self.use('bools_from', fields.bools_from)}(data[pos:stop])"
             else:
-                dtype = self.use(f"dtype_{kind}", DTYPES[kind])
-                empty = self.use(f"empty_{kind}", np.frombuffer(b"", DTYPES[kind]))
+                dtype = self.use(f"dtype_{kind}", dtype_of(kind))
+                empty = self.use(f"empty_{kind}", np.frombuffer(b"", dtype_of(kind)))
                 value = f"{self.use('frombuffer', np.frombuffer)}(data, {dtype}, count, pos) if count else {empty}"
             self.emit(f"{target} = {value}")
             self.emit("pos = stop")

@@ -8,12 +8,13 @@ lists, and a ``str`` is refused as a list of strings (genpy sends its letters).
 from __future__ import annotations
 
 import struct
-from functools import lru_cache
+import sys
+from functools import cache, lru_cache
+from numbers import Real
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from rosmini.core.errors import DeserializationError, SerializationError, shown
+from rosmini.core.lazy import np
 
 from .definition import BYTES, FORMATS, INTEGER_RANGES
 
@@ -28,12 +29,13 @@ if TYPE_CHECKING:
 # Errors that a wrong value can cause in generated code; AttributeError: None or a number instead of a message.
 ERRORS = (struct.error, TypeError, ValueError, OverflowError, AttributeError, SerializationError)
 
-DTYPES = {
-    name: np.dtype(
-        "?" if name == "bool" else f"<{'f' if code in 'fd' else 'iu'[code.isupper()]}{struct.calcsize('<' + code)}"
-    )
-    for name, code in FORMATS.items()
-}
+
+@cache
+def dtype_of(kind: str) -> np.dtype[Any]:
+    """Return numpy's type for the elements of a numeric array field, little-endian as on the wire."""
+    code = FORMATS[kind]
+    size = struct.calcsize("<" + code)
+    return np.dtype("?" if kind == "bool" else f"<{'f' if code in 'fd' else 'iu'[code.isupper()]}{size}")
 
 
 def checked_text(value: Any) -> str:
@@ -46,7 +48,12 @@ def checked_text(value: Any) -> str:
 
 def as_bool(value: Any) -> Any:
     """Convert a numpy bool, which struct does not accept, to a Python bool; return other values unchanged."""
-    return bool(value) if isinstance(value, np.bool_) else value
+    return value if isinstance(value, int) or not _is_numpys("bool_", value) else bool(value)
+
+
+def _is_numpys(name: str, value: Any) -> bool:
+    """Return whether ``value`` is of this class of numpy; without numpy, which is not imported for this, nothing is."""
+    return isinstance(value, getattr(sys.modules.get("numpy"), name, ()))
 
 
 def freeze_bytes(size: int) -> Callable[[Any], bytes]:
@@ -55,14 +62,14 @@ def freeze_bytes(size: int) -> Callable[[Any], bytes]:
     def convert(values: Any) -> bytes:
         if type(values) is bytes:
             data: bytes = values
-        elif isinstance(values, np.ndarray):
-            data = _array_bytes(values, DTYPES["uint8"])
         elif isinstance(values, (bytes, bytearray, list, tuple)):
             data = bytes(values)
         elif isinstance(values, memoryview):
             data = values.tobytes()
         elif isinstance(values, str):
             raise TypeError("a str, not bytes")
+        elif _is_numpys("ndarray", values):
+            data = _array_bytes(values, dtype_of("uint8"))
         else:
             data = bytes(tuple(values))
         if size >= 0 and len(data) != size:
@@ -80,7 +87,7 @@ def _packer(code: str, count: int) -> Callable[..., bytes]:
 
 def array_freezer(kind: str, size: int) -> Callable[[Any], NDArray[Any]]:
     """Return the conversion of a numeric array field to a read-only numpy array over ``bytes``."""
-    code, dtype = FORMATS[kind], DTYPES[kind]
+    code, dtype = FORMATS[kind], dtype_of(kind)
     frombuffer, ndarray = np.frombuffer, np.ndarray
 
     def convert(values: Any) -> NDArray[Any]:
@@ -186,7 +193,7 @@ def check_field(field: Field, path: str, value: Any, nested: type[MessageContrac
     except TypeError:
         problem = f"field {path} must be a list or tuple type, not {_shown(value)} [{field.type}]"
         raise SerializationError(problem) from None
-    if isinstance(value, np.ndarray) and value.ndim != 1:
+    if _is_numpys("ndarray", value) and value.ndim != 1:
         problem = f"field {path} must have one dimension, not {value.ndim} (ravel() flattens an array) [{field.type}]"
         raise SerializationError(problem)
     if field.size >= 0 and len(elements) != field.size:
@@ -233,8 +240,7 @@ def _check_number(kind: str, path: str, value: Any) -> None:
     if kind == "bool":
         problem = "is not a bool:"
     elif kind in ("float32", "float64"):
-        fits = not isinstance(value, (int, float, np.floating))
-        problem = "must be float type, not" if fits else f"exceeds specified width [{kind}]:"
+        problem = "must be float type, not" if not isinstance(value, Real) else f"exceeds specified width [{kind}]:"
     elif not hasattr(value, "__index__"):
         problem = f"must be {'unsigned integer' if INTEGER_RANGES[kind][0] == 0 else 'an integer'} type, not"
     elif INTEGER_RANGES[kind][0] == 0 and value < 0:

@@ -17,17 +17,16 @@ from rosmini.core.graph.notebook import mark_as_shown
 from rosmini.core.names import namespace
 from rosmini.core.verbs import Parser, Result, Shown
 from rosmini.core.verbs.options import global_name
-from rosmini.sim.recorder import Recorder
-from rosmini.sim.simulation import Simulation
 from rosmini.sim.turtlesim import TurtleSim
+from rosmini.sim.turtlesim.tape import Tape
 from rosmini.tools.magics import words as words_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from optparse import Values
 
+    from rosmini.sim.recorder import Recorder
     from rosmini.sim.recording import Recording
-    from rosmini.sim.turtlesim.tape import Tape
     from rosmini.viz.rviz.tools import PublishingTool, Tools
 
     from .session import Session
@@ -143,7 +142,7 @@ def drag(session: Session, line: str) -> None:
     (name, program), *others = _simulations(session, []).items()
     if others:
         raise UsageError(f"%drag needs one simulation, and there are {1 + len(others)}")
-    if not isinstance(program, Simulation):
+    if not _is_simulation(program):
         raise UsageError(f"nothing in {name} can be dragged")
     program.drag(given.words[0], pose)
 
@@ -236,12 +235,20 @@ def _simulations(session: Session, names: Sequence[str]) -> Mapping[str, Any]:
         raise RosminiError("no simulation runs: start one, for example with %rosrun rosmini_sim simulator")
     if names:
         return {name: known[name] for name in map(global_name, names)}
-    return {name: program for name, program in known.items() if isinstance(program, Simulation | TurtleSim)} or known
+    shown = {name: each for name, each in known.items() if isinstance(each, TurtleSim) or _is_simulation(each)}
+    return shown or known
+
+
+def _is_simulation(program: Any) -> bool:
+    """Return whether the program is a ``Simulation``, a class that needs numpy and is not imported for turtles."""
+    return hasattr(program, "drag")
 
 
 def _recorder(session: Session, name: str, program: Any) -> Recorder | Tape:
     if isinstance(program, TurtleSim):
         return program.record()
+    from rosmini.sim.recorder import Recorder
+
     return Recorder(session.graph, program, namespace=namespace(name), layers=True)
 
 
@@ -260,11 +267,11 @@ def _replay(recorders: Sequence[Recorder | Tape], given: Values, topics: Sequenc
     """Return the player of a finished recording; several simulations are shown side by side."""
     from rosmini.viz.turtle_replay import turtle_replay
 
-    robots = [recorder for recorder in recorders if isinstance(recorder, Recorder)]
+    tapes = [recorder for recorder in recorders if isinstance(recorder, Tape)]
+    robots = [recorder for recorder in recorders if not isinstance(recorder, Tape)]
     if not robots:
         if given.solid or given.at_end or given.words:
             raise UsageError("turtles are flat and have no layers: write %replay without arguments")
-        tapes = [recorder for recorder in recorders if not isinstance(recorder, Recorder)]
         return Replay(view=turtle_replay(*tapes), recordings=tuple(tapes))
     recordings = tuple(recorder.recording() for recorder in robots)
     names = [namespace(recorder.node.name).strip("/") for recorder in robots] if len(robots) > 1 else None

@@ -8,11 +8,12 @@ have their boundaries elsewhere, where values fall only by chance.
 from __future__ import annotations
 
 from decimal import ROUND_HALF_UP, Decimal
+from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from rosmini.core.lazy import np
 
-from rosmini.core.geometry.polygons import simplified_indices
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
 
 MILLIMETRE = 1e-3
 """Resolution to which pictures of a world are rounded [m]: at most a tenth of a pixel."""
@@ -49,6 +50,8 @@ def points_to_keep(points: NDArray[np.float64], tolerance: float) -> list[int]:
 
     The ends are always included; see `rosmini.core.geometry.polygons.simplified_indices`.
     """
+    from rosmini.core.geometry.polygons import simplified_indices
+
     x, y = (np.ascontiguousarray(column) for column in points.T)
 
     def gaps(first: int, last: int) -> NDArray[np.float64]:

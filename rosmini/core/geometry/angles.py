@@ -7,14 +7,16 @@ An infinite angle becomes nan.
 from __future__ import annotations
 
 import math
-from typing import overload
+from typing import TYPE_CHECKING, TypeAlias, overload
 
-import numpy as np
-from numpy.typing import NDArray
+from rosmini.core.lazy import np
 
 from .errors import GeometryError
 
-Floats = NDArray[np.float64]
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+Floats: TypeAlias = "NDArray[np.float64]"
 
 TURN = 2 * math.pi
 
@@ -40,7 +42,7 @@ def normalize_angle(angle: float | Floats) -> float | Floats:
     >>> normalize_angle(1.5 * math.pi) == -math.pi / 2
     True
     """
-    if isinstance(angle, np.ndarray):
+    if not isinstance(angle, (float, int)) and isinstance(angle, np.ndarray):
         with np.errstate(invalid="ignore"):
             rest = np.asarray(np.fmod(angle, TURN))
         rest[rest > math.pi] -= TURN

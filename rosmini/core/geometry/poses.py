@@ -8,15 +8,17 @@ broadcast against each other and against single poses. Headings are never wrappe
 from __future__ import annotations
 
 import math
-from typing import overload
+from typing import TYPE_CHECKING, TypeAlias, overload
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from rosmini.core.lazy import np
 
 from .errors import GeometryError
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
 Pose = tuple[float, float, float]
-Floats = NDArray[np.float64]
+Floats: TypeAlias = "NDArray[np.float64]"
 
 
 @overload

@@ -11,11 +11,14 @@ Use them for small matrices and for many points.
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING, TypeAlias
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from rosmini.core.lazy import np
 
-Floats = NDArray[np.float64]
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+Floats: TypeAlias = "NDArray[np.float64]"
 
 MAX_SWEEPS = 50
 """Maximum number of sweeps; Jacobi's method converges in fewer than ten."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import struct
 from typing import Any, Literal, NamedTuple
 
-import numpy as np
+from rosmini.core.lazy import np
 
 from .kernel import PARENT_SHIFT, Rigid, find
 

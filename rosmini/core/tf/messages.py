@@ -5,18 +5,19 @@ from __future__ import annotations
 import copy
 from collections.abc import Callable
 from functools import cache
-from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, Any
 
 from rosmini.core.geometry.products import matrix_product
+from rosmini.core.lazy import np
 from rosmini.msgs import message_class
 from rosmini.msgs.template import template
 
 from .errors import TransformException
 from .rigid import Floats, Rigid, compose, matrix, rigid, rotate, transform_points
 from .transformations.matrices import EPS
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 FLOAT_TYPES = {7: "f4", 8: "f8"}
 """The floating-point types of `sensor_msgs/PointField`."""

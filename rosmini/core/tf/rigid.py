@@ -9,14 +9,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from typing import TYPE_CHECKING, TypeAlias
 
 from rosmini.core.geometry.products import matrix_product
+from rosmini.core.lazy import np
 
 from .errors import InvalidArgumentException
 from .kernel import IDENTITY, Rigid, compose, interpolate, inverse
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
     "IDENTITY",
@@ -34,7 +36,7 @@ __all__ = [
     "transform_points",
 ]
 
-Floats = NDArray[np.float64]
+Floats: TypeAlias = "NDArray[np.float64]"
 
 
 def rigid(translation: Sequence[float] = (0.0, 0.0, 0.0), rotation: Sequence[float] = (0.0, 0.0, 0.0, 1.0)) -> Rigid:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from typing import Any, NamedTuple
 
-import numpy as np
+from rosmini.core.lazy import np
 
 from .errors import (
     ConnectivityException,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 from typing import Any
 
-import numpy as np
+from rosmini.core.lazy import np
 
 
 @cache

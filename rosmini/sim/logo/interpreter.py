@@ -11,8 +11,6 @@ from __future__ import annotations
 from types import GeneratorType
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
-
 from .floor import FloorFlock, robots_of
 from .reader import Call, Constant, Procedure, Variable, parse, read
 from .turtles import Drawing, Flock, Paper
@@ -72,7 +70,7 @@ class Logo:
         self.node: Node | None = None
         """Its node if it drives turtles of a graph."""
         self.procedures: dict[str, Procedure] = {}
-        self.state = State(flock or Paper(), say, np.random.default_rng(seed), limits or Limits())
+        self.state = State(flock or Paper(), say, seed, limits or Limits())
         self._bodies: dict[str, tuple[list[Expression], Any]] = {}
         """For each procedure, its instructions, and apart from them the last one if that calls a procedure."""
         self._saved: list[dict[str, Value | None]] = []

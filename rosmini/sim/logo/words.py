@@ -9,10 +9,11 @@ import math
 import operator
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from itertools import chain
 from typing import Any
 
-import numpy as np
+from rosmini.core.lazy import np
 
 from .turtles import Colour, Flock, Pose, Turtle, cosine, sine
 from .values import (
@@ -60,12 +61,17 @@ class State:
 
     flock: Flock
     say: Callable[[str], object]
-    random: np.random.Generator
+    seed: int
     limits: Limits
     variables: dict[str, Value] = field(default_factory=dict)
     steps: int = 0
     moves: int = 0
     lines: int = 0
+
+    @cached_property
+    def random(self) -> np.random.Generator:
+        """The generator behind `random`."""
+        return np.random.default_rng(self.seed)
 
     def step(self, count: int = 1) -> None:
         """Count steps. Raises ``LogoStopped``."""

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
+from rosmini.core.lazy import np
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -66,7 +66,6 @@ class Paper:
         self.background = background
         self.clears = 0
         """Number of clears."""
-        self._image = np.empty((SIZE, SIZE, 3), dtype=np.uint8)
         self._wipe()
 
     def _wipe(self) -> None:
@@ -75,7 +74,7 @@ class Paper:
         self._pens: dict[tuple[Pen, str], int] = {}
         self._first = 0
         self._painted = 0
-        self._image[:] = self.background
+        self._image: NDArray[np.uint8] | None = None
 
     def clear(self, background: Colour | None = None) -> None:
         """Clear the paper, with this background or the same one as before."""
@@ -88,7 +87,7 @@ class Paper:
         self._ends.extend((*start, *end))
         self._styles.append(self._pens.setdefault((pen, owner), len(self._pens)))
         if len(self._styles) > MAX_STROKES:
-            self._paint()
+            self._painted_image()
             forgotten = len(self._styles) // 2
             del self._ends[: 4 * forgotten], self._styles[:forgotten]
             self._first += forgotten
@@ -112,21 +111,24 @@ class Paper:
 
     def pixel(self, x: float, y: float) -> Colour:
         """Return the colour at a point [px]; for a point outside, that of the nearest pixel."""
-        self._paint()
+        image = self._painted_image()
         column, row = (min(max(math.floor(each + 0.5), 0), SIZE - 1) for each in (x, y))
-        red, green, blue = self._image[row, column]
+        red, green, blue = image[row, column]
         return int(red), int(green), int(blue)
 
     def image(self) -> NDArray[np.uint8]:
         """Return the whole drawing, (row, column, 3), from the top left."""
-        self._paint()
-        return self._image.copy()
+        return self._painted_image().copy()
 
-    def _paint(self) -> None:
-        """Paint the strokes that are not in the image yet; called only when the image is needed."""
+    def _painted_image(self) -> NDArray[np.uint8]:
+        """Return the image after painting the strokes that are not in it yet; called only when the image is needed."""
+        image = self._image
+        if image is None:
+            image = self._image = np.full((SIZE, SIZE, 3), self.background, dtype=np.uint8)
         for stroke in self.strokes(self._painted):
-            _paint(self._image, stroke)
+            _paint(image, stroke)
         self._painted = self.count
+        return image
 
 
 def _paint(image: NDArray[np.uint8], stroke: Stroke) -> None:

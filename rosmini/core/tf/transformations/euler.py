@@ -7,15 +7,17 @@ the angles reversed too (Shoemake, "Euler angle conversion", Graphics Gems IV, 1
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from rosmini.core.lazy import np
 
 from .matrices import EPS
 from .quaternions import quaternion_matrix, quaternion_multiply
 
-Floats = NDArray[np.float64]
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+Floats: TypeAlias = "NDArray[np.float64]"
 Axes = str | tuple[int, int, int, int]
 
 

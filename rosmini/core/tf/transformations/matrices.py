@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from typing import TYPE_CHECKING, TypeAlias
 
 from rosmini.core.geometry.products import eigen, matrix_product, norm, norms, scalar_product
+from rosmini.core.lazy import np
 
-Floats = NDArray[np.float64]
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+Floats: TypeAlias = "NDArray[np.float64]"
 
 EPS = 8.881784197001252e-16
 """Four times the machine epsilon, as in ROS's module."""

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from typing import TYPE_CHECKING, TypeAlias
 
 from rosmini.core.geometry.products import determinant, inverse_matrix, matrix_product, norm, scalar_product
+from rosmini.core.lazy import np
 
 from .euler import euler_from_matrix, euler_matrix
 from .matrices import EPS, translation_matrix
 
-Floats = NDArray[np.float64]
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+Floats: TypeAlias = "NDArray[np.float64]"
 
 
 def compose_matrix(

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
-
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from typing import TYPE_CHECKING, TypeAlias
 
 from rosmini.core.geometry.products import scalar_product
+from rosmini.core.lazy import np
 
 from .matrices import EPS, unit
 
-Floats = NDArray[np.float64]
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+Floats: TypeAlias = "NDArray[np.float64]"
 
 
 def _four(quaternion: ArrayLike) -> Floats:

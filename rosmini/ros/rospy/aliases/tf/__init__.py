@@ -10,9 +10,8 @@ import sys
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-import numpy as np
-
 from rosmini.core import tf
+from rosmini.core.lazy import np
 from rosmini.core.tf import transformations
 from rosmini.core.tf.broadcaster import tf_prefix
 from rosmini.core.tf.errors import ConnectivityException, ExtrapolationException, LookupException, TransformException
