@@ -236,11 +236,8 @@ each_exercise = pytest.mark.parametrize("found", list(all_exercises()), ids=lamb
 
 
 def wrong_answers(found, *, at_night):
-    """The first script or file, which is run, and all answers of other kinds; at night the rest."""
-    for number, mistake in enumerate(mistakes_of(found)):
-        answer = mistake()
-        if at_night == (number >= 1 and isinstance(answer, Script | str)):
-            yield answer
+    """The answers that are compared; at night the scripts and files, which are run. Solutions run in the chapters."""
+    return [answer for mistake in mistakes_of(found) if isinstance(answer := mistake(), Script | str) == at_night]
 
 
 @pytest.mark.usefixtures("package")

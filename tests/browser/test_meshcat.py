@@ -404,6 +404,7 @@ def test_two_runs_have_one_clock_and_one_bar_and_are_seen_from_the_same_side(ope
     page.screenshot(path=shared_tmp / f"meshcat-two-{width}.png", full_page=True)
 
 
+@pytest.mark.nightly
 def test_a_run_ends_and_begins_anew(open_page):
     page = open_page("alone_replay.html")
     slider = page.get_by_role("slider", name="Time")

@@ -28,6 +28,7 @@ QUESTIONS = [
 ]  # fmt: skip
 
 
+@pytest.mark.nightly
 def test_the_same_lines_do_the_same(tools: Tools, tmp_path: Path) -> None:
     (tmp_path / "p.yaml").write_text("a: 1\nb: {c: [1, 2], d: -5}\n---\n_ns: sub\nz: rad(pi)\n", encoding="utf-8")
     state = []

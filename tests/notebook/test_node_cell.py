@@ -185,6 +185,7 @@ def test_where_nobody_can_type_the_script_fails_and_says_what_to_do(notebook, mo
     assert "add --stdin TEXT" in notebook.ok("%%node ask.py\ninput('who? ')")
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize(
     ("line", "said"),
     [

@@ -11,6 +11,8 @@ import pytest
 
 from ..processes import free_port, listens, run, start, wait_until
 
+pytestmark = pytest.mark.nightly
+
 ROSMINI = (sys.executable, "-m", "rosmini")
 
 MANIFEST = """<package format="2"><name>example_pkg</name><version>0.0.1</version><description>x</description>

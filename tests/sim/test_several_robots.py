@@ -233,6 +233,7 @@ def test_errors_of_spawning_say_what_to_do_and_change_nothing(graph):
     assert len(ears.heard["odom"]) == count + 15
 
 
+@pytest.mark.nightly
 def test_two_runs_with_coming_and_going_are_equal_to_the_last_byte():
     def run():
         with Graph(seed=7) as graph:

@@ -31,6 +31,7 @@ def partners(pair: Peers) -> dict[str, Peer]:
     return {"ours": pair[0], "real": pair[1]}
 
 
+@pytest.mark.nightly
 def test_two_nodes_of_one_name(core: Stage) -> None:
     """The Master has the older one shut down, with the reason."""
     older = core.peer("ours", "twin").ready()

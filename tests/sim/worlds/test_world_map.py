@@ -23,6 +23,7 @@ shapes = st.one_of(
 obstacles = st.lists(st.tuples(shapes, st.tuples(places, places, st.floats(-3, 3))), min_size=1, max_size=3)
 
 
+@pytest.mark.nightly
 @given(obstacles, st.lists(st.tuples(places, places, places, places), max_size=2), st.sampled_from([0.17, 0.25]))
 def test_a_cell_is_occupied_if_the_world_says_so_of_a_square_as_large(things, walls, resolution):
     walls = [wall for wall in walls if math.dist(wall[:2], wall[2:]) > 1e-3]

@@ -54,6 +54,7 @@ def test_a_transformer_that_the_cloud_has_no_channel_for_is_said(stage, statuses
     assert "No color transformer RGB8" in statuses(display)["Topic"][1]
 
 
+@pytest.mark.nightly
 def test_an_empty_cloud_is_warned_of_and_a_huge_one_thinned(stage, statuses):
     found, display, scene = drawn(stage, cloud([]))
     assert len(found.points) == 0
