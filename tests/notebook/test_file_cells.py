@@ -7,7 +7,6 @@ from ..conftest import nightly
 TALKER = """%%node talker.py
 import rospy
 from notebook.msg import Num
-from ..conftest import nightly
 rospy.init_node("talker")
 pub = rospy.Publisher("numbers", Num, queue_size=1, latch=True)
 pub.publish(Num(7))
