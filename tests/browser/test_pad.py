@@ -319,7 +319,7 @@ def test_discs_and_corners_stop_a_robot(bare):
 @pytest.mark.parametrize("name", ["light", *nightly("alone")])
 def test_real_keys_drive_and_each_message_is_shown(show, name):
     pad = show(name)
-    assert pad.message == "Nothing was published yet."
+    assert pad.message == "Nothing has been published yet."
     pad.stage.focus()
     pad.keys("wwwwa")
     pad.run(0.05)
@@ -386,7 +386,7 @@ def test_capitals_and_other_alphabets_drive_too_but_shortcuts_of_the_browser_do_
     pad.stage.focus()
     for keys in ("Control+a", "Alt+d", "Meta+s", "Shift+Tab"):
         pad.page.keyboard.press(keys)
-    assert pad.message == "Nothing was published yet."
+    assert pad.message == "Nothing has been published yet."
     pad.stage.focus()
     pad.page.keyboard.press("Shift+W")
     pad.stage.dispatch_event("keydown", {"key": "ц", "code": "KeyW"})  # the same key on a Russian keyboard

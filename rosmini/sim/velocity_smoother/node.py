@@ -30,9 +30,9 @@ class SmootherLimits(Parameters):
     speed_lim_v: float = parameter(1.0, "the highest speed", unit="m/s", minimum=0.0, maximum=10.0)
     speed_lim_w: float = parameter(5.0, "the fastest turn", unit="rad/s", minimum=0.0, maximum=10.0)
     accel_lim_v: float = parameter(0.5, "the strongest acceleration", unit="m/s2", minimum=0.0, maximum=10.0)
-    accel_lim_w: float = parameter(2.5, "how fast a turn may become faster", unit="rad/s2", minimum=0.0, maximum=10.0)
+    accel_lim_w: float = parameter(2.5, "the strongest angular acceleration", unit="rad/s2", minimum=0.0, maximum=10.0)
     decel_factor: float = parameter(
-        1.0, "by this factor it brakes harder than it accelerates", minimum=0.0, maximum=10.0
+        1.0, "how many times stronger the braking is than the acceleration", minimum=0.0, maximum=10.0
     )
 
 

@@ -267,7 +267,7 @@ class Plot(Panel):
         good = {name: series for name, (series, _) in self._lines.items() if not series.problem}
         heard = {name: series.points() for name, series in good.items() if series.points()[0]}
         if not heard:
-            return Drawing("<p>no number has come yet</p>", "no number has come yet")
+            return Drawing("<p>no value received yet</p>", "no value received yet")
         return drawn(_plotted(heard, now, x="time from now [s]", title=self.tool))
 
     def settings(self) -> dict[str, Any]:

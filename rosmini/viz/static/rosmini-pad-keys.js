@@ -36,7 +36,7 @@
     ],
     turtle_teleop_key: [
       [["↑"], ["↓"], "ahead and back,", ["←"], ["→"], "turns,"],
-      ["a message and a second for each;"],
+      ["one message for each press, which lasts a second;"],
       [["space"], "stop at once;"],
     ],
   };

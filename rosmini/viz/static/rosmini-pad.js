@@ -369,7 +369,7 @@
       if (this.sent === sent) return;
       this.sent = sent;
       const texts = messages.slice(-SHOWN).map(yaml);
-      if (!texts.length) { this.log.replaceChildren(element("p", {}, "Nothing was published yet.")); return; }
+      if (!texts.length) { this.log.replaceChildren(element("p", {}, "Nothing has been published yet.")); return; }
       this.log.replaceChildren(...texts.map((text) => element("pre", {}, text)));
     }
 

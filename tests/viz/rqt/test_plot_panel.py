@@ -23,7 +23,7 @@ def tick(graph):
 def test_lines_are_drawn_from_what_comes(graph, tick):
     plot = Plot(graph, "/point/x:y")
     assert plot.fields == ("/point/x", "/point/y")
-    assert "no number has come yet" in plot.text
+    assert "no value received yet" in plot.text
     graph.run(1.05)
     assert "/point/x: 9 points, from 1.00 to 9.00" in plot.text or "/point/x: 10 points" in plot.text
     assert "<svg" in plot.markup(live=True)
@@ -48,7 +48,7 @@ def test_the_page_adds_removes_pauses_and_clears(graph, tick):
     plot.set("pause", False)
     assert plot.text != before
     plot.set("clear")
-    assert "no number" in plot.text
+    assert "no value" in plot.text
     plot.set("remove//point/x")
     assert plot.fields == ()
     with pytest.raises(ViewError, match="is not plotted"):
