@@ -342,11 +342,16 @@
     context.lineTo(x, y);
     context.lineTo(x + size, y);
     context.lineTo(x + size, y - 5);
-    context.lineWidth = 1.5;
     context.lineCap = "butt";
-    context.strokeStyle = context.fillStyle = colours.ink;
-    context.stroke();
-    context.fillText(label, x + 5, y - 2);
+    context.lineJoin = "round";
+    for (const [ink, wider] of [[colours.page, 4], [colours.ink, 0]]) { // a rim keeps it readable on a map
+      context.strokeStyle = context.fillStyle = ink;
+      context.lineWidth = 1.5 + wider;
+      context.stroke();
+      context.lineWidth = wider;
+      if (wider) context.strokeText(label, x + 5, y - 2);
+      context.fillText(label, x + 5, y - 2);
+    }
   }
 
   globalThis.rosminiCanvas = { fit, watch, theme, clear, world, scan, trail, robot, thing, label, scaleBar };

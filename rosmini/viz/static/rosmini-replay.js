@@ -63,6 +63,7 @@ height:32px;margin-left:auto;padding:0 .3rem;width:auto}
 .rosmini-replay [hidden]{display:none}
 .rosmini-replay .rr-layers{gap:.1rem .8rem;padding-bottom:.1rem}
 .rosmini-replay i{border-top:2px solid;display:inline-block;width:18px}
+.rosmini-replay .rr-pen{filter:drop-shadow(0 0 1px var(--muted))}
 .rosmini-replay .rr-notes{color:var(--muted);font-size:12px;margin:0;padding:0 .7rem .5rem}
 .rosmini-replay .rr-keys{color:var(--muted);font-size:12px;margin:0;padding:0 .7rem .5rem}
 .rosmini-replay kbd{all:unset;border:1px solid var(--group-line);border-radius:3px;padding:0 .3em}
@@ -120,7 +121,10 @@ margin:0;padding:.2rem .7rem .6rem}
       row.innerHTML = '<input type="checkbox" checked><i></i>';
       row.firstChild.dataset.layer = key;
       row.append(label);
-      row.querySelector("i").style.borderTop = `${line === "dotted" ? 3 : 2}px ${line} ${colour[0] === "#" ? colour : `var(--${colour},var(--line))`}`;
+      const own = colour[0] === "#"; // such as the white of a pen, on a white page
+      const swatch = row.querySelector("i");
+      swatch.style.borderTop = `${line === "dotted" ? 3 : 2}px ${line} ${own ? colour : `var(--${colour},var(--line))`}`;
+      if (own) swatch.className = "rr-pen";
       view.before(row);
     }
     const notes = root.querySelector(".rr-notes");
