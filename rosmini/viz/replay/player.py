@@ -17,8 +17,9 @@ from rosmini.sim.recording import Recording
 from rosmini.viz.embed import MovingView
 from rosmini.viz.recording_pictures import RunScene, recording_picture
 from rosmini.viz.replay.encode import replay_data
+from rosmini.viz.replay.layers import Shapes
 from rosmini.viz.replay.messages import BagLog, MemoryLog, NothingToSee, run_of
-from rosmini.viz.replay.run import BUDGET, Run, thinned
+from rosmini.viz.replay.run import BUDGET, Body, Run, thinned
 from rosmini.viz.replay.still import still_of
 from rosmini.viz.rounding import fixed
 from rosmini.viz.svg import element
@@ -258,9 +259,17 @@ def recorder_run(recording: Recording, **options: Any) -> Run | None:
         run = run_of(MemoryLog("the run", messages, start, end), start_at=(x, y, heading), **options)
     except NothingToSee:
         return None
-    believed = (
-        ()
-        if run.frame.rpartition("/")[2] == "odom"
-        else tuple(replace(b, name=f"{b.name} in {run.frame}") for b in run.bodies)
-    )
+    believed: tuple[Body, ...] = ()
+    if run.frame.rpartition("/")[2] != "odom":
+        colour = _colour_beside(run)
+        believed = tuple(
+            replace(b, name=f"{b.name} in {run.frame}", colour=colour if b.colour == "blue" else b.colour)
+            for b in run.bodies
+        )
     return replace(run, bodies=believed) if run.layers or believed else None
+
+
+def _colour_beside(run: Run) -> str:
+    """Return a colour for the estimated path: not the blue of the true one, and none of a plan."""
+    shapes = [shape for layer in run.layers if isinstance(layer, Shapes) for item in layer.items for shape in item]
+    return "green" if any(shape.colour == "purple" for shape in shapes) else "purple"

@@ -370,6 +370,8 @@ def test_a_map_is_laid_on_the_world(first, map_at):
     view = recorder.recording().replay()
     place = columns(view.data["layers"][0]["places"], 8)[0]
     assert place[3:5] / 1000 == pytest.approx(map_at, abs=0.01)
+    [believed] = view.data["bodies"]
+    assert (believed["name"], believed["colour"]) == ("base_footprint in map", "purple"), "the true path is blue"
 
 
 def test_an_mcap_file_is_played_as_the_bag_it_was_made_from(bag, tmp_path):
