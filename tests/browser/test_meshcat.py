@@ -186,6 +186,16 @@ def test_the_drawing_is_what_the_viewer_shows_first(open_page, path, shared_tmp)
     assert middles[0] == pytest.approx(middles[1], abs=0.04)
 
 
+def test_a_narrow_page_shows_as_much_to_both_sides(open_page):
+    page = open_page("deep/er/robot.html", width=390)
+    sides = "viewer.camera.aspect / viewer.camera.zoom"
+    assert viewer(page, "viewer.camera.aspect") < 1.2
+    assert viewer(page, sides) == pytest.approx(1.5)
+    page.set_viewport_size({"width": 800, "height": 560})
+    page.wait_for_function("document.querySelector('iframe').contentWindow.viewer.camera.aspect > 1.6")
+    assert viewer(page, "viewer.camera.zoom") == 1
+
+
 @pytest.mark.parametrize("path", ["deep/er/gazebo.html", *nightly("alone_gazebo.html")])
 def test_equal_robots_share_their_geometry(open_page, path):
     page = open_page(path)

@@ -22,6 +22,7 @@
   };
   const STEP = Math.PI / 24;
   const ZOOM = 1.5; // of one press, as there
+  const NARROW = 1.5; // width divided by height below which a picture would lose its sides
   const ROBOT = "/meshcat/robots/robot";
 
   const bytes = (text) => Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
@@ -153,6 +154,7 @@
       }
       for (const each of data.labels ?? []) label(frame.contentWindow, viewer, each);
       pane.viewer = frame.contentWindow.viewer = viewer; // where meshcat's own page has it
+      fit(viewer, frame.contentWindow);
       viewer.controls.minDistance = 0.15;
       viewer.controls.maxDistance = 60;
       viewer.controls.maxPolarAngle = Math.PI / 2 - 0.02; // not below the ground
@@ -165,6 +167,17 @@
     script.onerror = () => { options.show(false); console.error(`${address} was not loaded`); };
     script.src = address;
     page.body.append(script);
+  }
+
+  /* A narrow picture shows as much to both sides as a wide one, and more above and below. */
+  function fit(viewer, page) {
+    const zoom = () => {
+      viewer.camera.zoom = Math.min(viewer.camera.aspect / NARROW, 1);
+      viewer.camera.updateProjectionMatrix();
+      viewer.set_dirty();
+    };
+    page.addEventListener("resize", zoom); // after meshcat's own listener, which sets the aspect ratio
+    zoom();
   }
 
   function paint(viewer, data) {
