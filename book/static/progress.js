@@ -1,7 +1,8 @@
 /* What a reader has read and solved, kept in this browser and nowhere else.
 
    Each page of the book notes that its end was seen. The page "Your progress" shows these notes as ticks, which the
-   reader can change, and exports, imports and clears them. The notes are {pages: {name: date}, exercises: {name: date}}. */
+   reader can change, and exports, imports and clears them. The notes are {pages: {name: date}, exercises: {name: date}}.
+   In JupyterLab, `check` writes solved exercises into a file of the same form (`rosmini/book/checks.py`). */
 
 (() => {
   "use strict";
@@ -12,7 +13,7 @@
   let isKept = true; // whether the browser stores anything for this page
   let notes = { pages: {}, exercises: {} };
 
-  /* The notes of a text that this script has written. Throws an error for any other. */
+  /* The notes in the text of a file. Throws an error if it has another form. */
   function parse(text) {
     const read = JSON.parse(text);
     const found = { pages: {}, exercises: {} };
@@ -120,7 +121,7 @@
       keep();
       show(`${chosen.name} was added.`);
     } catch {
-      show(`${chosen.name} is not a file that this page has exported. Nothing was changed.`);
+      show(`${chosen.name} is not a file with progress. Nothing was changed.`);
     }
     file.value = ""; // the same file can be chosen again
   });

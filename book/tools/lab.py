@@ -11,6 +11,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+from rosmini.book.checks import PROGRESS
 from rosmini.core.errors import RosminiError
 from rosmini.tools.checkout import find_checkout
 
@@ -22,6 +23,9 @@ INSTALLING = "ROSMINI_INSTALLS_LAB"
 
 FIRST = "1_start/10_first_steps.ipynb"
 """What opens first."""
+
+SOLVED = "rosmini-progress.json"
+"""The file beside the notebooks in which their checks note solved exercises."""
 
 OWN_SETTINGS = Path(__file__).with_name("jupyter")
 """Defaults of the user interface: no question about news."""
@@ -158,5 +162,6 @@ def main(args: argparse.Namespace) -> int:
             "it is not known whether its notebooks are the book's."
         )
     served = copy_notebooks(notebooks, args.copy.resolve()) if args.copy else notebooks
+    os.environ[PROGRESS] = str(served / SOLVED)
     LabApp.launch_instance(lab_arguments(args, str(served)))
     return 0

@@ -10,15 +10,19 @@ from __future__ import annotations
 import ast
 import functools
 import importlib
+import json
 import math
+import os
 import re
 import reprlib
 import sys
 import sysconfig
 import traceback
 import types
+from contextlib import suppress
 from contextvars import ContextVar
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from enum import Enum
 from numbers import Real
 from pathlib import Path
@@ -41,6 +45,8 @@ NOTEBOOK = "notebook"
 """Name of the package that contains a notebook's scripts."""
 SEED: ContextVar[int] = ContextVar("rosmini_check_seed", default=0)
 """The seed of the check that is running: that of all random numbers in its simulations. 0 is the seed of the book."""
+PROGRESS = "ROSMINI_PROGRESS"
+"""Environment variable with the path of the reader's file of solved exercises. `rosmini lab` sets it."""
 
 
 class UnknownExercise(RosminiError):
@@ -49,6 +55,10 @@ class UnknownExercise(RosminiError):
 
 class NoAnswer(RosminiError):
     """There is no script to check."""
+
+
+class SeveralAnswers(RosminiError):
+    """A check got more than one answer."""
 
 
 class Wrong(RosminiError):
@@ -272,11 +282,13 @@ def check(name: str, *answer: Any, seed: int = 0) -> Verdict:
 
     The verdict is true if the answer is right, so that `assert check("gentle")` works. The default answer is the script
     written by the `%%node` cell with `# Exercise: gentle` in its second line. With another `seed`, sensors and wheels
-    have other errors. Raises `UnknownExercise` if there is no such exercise, and `NoAnswer` if no such cell was run.
+    have other errors. Raises `UnknownExercise` if there is no such exercise, `NoAnswer` if no such cell was run, and
+    `SeveralAnswers` for more than one answer.
     """
     exercise = find(name)
-    (given,) = answer or (written(name),)
-    verdict = exercise.grade(given, seed)
+    verdict = exercise.grade(given(name, answer), seed)
+    if verdict:
+        note_solved(name)
     print(verdict)
     if verdict.view is not None:
         from IPython.core.display_functions import display
@@ -285,6 +297,30 @@ def check(name: str, *answer: Any, seed: int = 0) -> Verdict:
     if shell := getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)():
         mark_as_shown(verdict, shell)
     return verdict
+
+
+def given(name: str, answers: tuple[Any, ...]) -> Any:
+    """Return the answer among the arguments of a check, by default its script. Raises `NoAnswer`, `SeveralAnswers`."""
+    if len(answers) > 1:
+        raise SeveralAnswers(
+            f'check("{name}", ...) takes one answer, not {len(answers)}: pass one variable, as the stub does'
+        )
+    return answers[0] if answers else written(name)
+
+
+def note_solved(name: str) -> None:
+    """Add an exercise, with the date, to the reader's file of solved exercises, if there is one.
+
+    The page "Your progress" imports this file; its form is described in `book/static/progress.js`.
+    """
+    if not (path := os.environ.get(PROGRESS)):
+        return
+    notes: dict[str, dict[str, str]] = {"pages": {}, "exercises": {}}
+    with suppress(OSError, ValueError):  # no such file yet, or a damaged one
+        notes["exercises"] |= json.loads(Path(path).read_text(encoding="utf-8"))["exercises"]
+    notes["exercises"].setdefault(name, datetime.now(UTC).date().isoformat())
+    with suppress(OSError):  # a verdict does not depend on it
+        Path(path).write_text(json.dumps(notes, indent=2), encoding="utf-8", newline="\n")
 
 
 def written(name: str) -> Script:

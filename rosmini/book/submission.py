@@ -111,10 +111,12 @@ class Grader:
         if changed:
             return checks.Status.WRONG, f"Not graded: the submission has replaced {changed[0]}.", ""
         try:
-            verdict = checks.find(name).grade(answer[0] if answer else checks.written(name), seed)
+            verdict = checks.find(name).grade(checks.given(name, answer), seed)
         except checks.NoAnswer:
             text = f"Exercise {name}: no cell calls its check or has written its script."
             return checks.Status.NOT_ATTEMPTED, text, ""
+        except checks.SeveralAnswers as error:
+            return checks.Status.WRONG, f"Exercise {name}: {error}", ""
         page = getattr(verdict.view, "page", None) or ""
         return verdict.status, verdict.text, str(page)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import json
 import operator
 import os
 import pkgutil
@@ -12,7 +13,18 @@ import pytest
 
 import rosmini.book.exercises
 from rosmini.book import checks
-from rosmini.book.checks import Exercise, NoAnswer, Script, Status, UnknownExercise, check, exercise, expect, is_stub
+from rosmini.book.checks import (
+    Exercise,
+    NoAnswer,
+    Script,
+    SeveralAnswers,
+    Status,
+    UnknownExercise,
+    check,
+    exercise,
+    expect,
+    is_stub,
+)
 from rosmini.msgs.importer import forget
 
 from ..conftest import nightly
@@ -141,6 +153,31 @@ def test_a_notebook_shows_a_verdict_once_in_the_cell_of_its_check(chapter, capsy
 def test_a_mistyped_exercise(chapter):
     with pytest.raises(UnknownExercise, match=r"no exercise 'wheel'.*did you mean wheels\?"):
         check("wheel", 6)
+
+
+def test_two_answers(chapter):
+    with pytest.raises(SeveralAnswers, match=r'check\("wheels", \.\.\.\) takes one answer, not 2: '):
+        check("wheels", 5, 6)
+
+
+def test_right_answers_are_noted_for_the_page_of_progress(chapter, tmp_path, monkeypatch):
+    path = tmp_path / "progress.json"
+    check("wheels", 6)
+    assert not path.exists()
+    monkeypatch.setenv(checks.PROGRESS, str(path))
+    check("wheels", 5)
+    assert not path.exists()
+    path.write_text('{"exercises": {"stop": "2026-11-27"}, "damaged', encoding="utf-8")
+    check("wheels", 6)
+    notes = json.loads(path.read_text(encoding="utf-8"))
+    assert notes["pages"] == {}
+    assert list(notes["exercises"]) == ["wheels"]
+    notes["exercises"] = {"wheels": "2026-11-27", "stop": "2026-11-28"}
+    path.write_text(json.dumps(notes), encoding="utf-8")
+    check("wheels", 6)
+    assert json.loads(path.read_text(encoding="utf-8")) == notes
+    monkeypatch.setenv(checks.PROGRESS, str(tmp_path))  # a folder: it cannot be written
+    assert check("wheels", 6)
 
 
 @pytest.fixture

@@ -18,6 +18,7 @@ from nbformat.sign import NotebookNotary
 
 from book.tools import book, build, lab, notebooks
 from book.tools.build import BookError, build_book, has_display
+from rosmini.book.checks import PROGRESS
 from rosmini.tools import checkout, main
 from rosmini.tools.checkout import NoCheckout, find_checkout
 
@@ -154,6 +155,18 @@ def test_a_bad_port_is_refused(port, capsys):
         main.main(["lab", f"--port={port}"])
     assert end.value.code == 2
     assert "is not a port" in capsys.readouterr().err
+
+
+def test_lab_names_the_file_in_which_checks_note_solved_exercises(monkeypatch, tmp_path):
+    tool("jupyterlab")
+    launched = []
+    monkeypatch.setenv(PROGRESS, "")
+    monkeypatch.setenv("JUPYTER_CONFIG_PATH", "")
+    monkeypatch.setattr(lab, "trust", lambda folder: 1)
+    monkeypatch.setattr("jupyterlab.labapp.LabApp.launch_instance", launched.append)
+    assert main.main(["lab", "--no-open", "--copy", str(tmp_path)]) == 0
+    assert f"--ServerApp.root_dir={tmp_path}" in launched[0]
+    assert os.environ[PROGRESS] == str(tmp_path / "rosmini-progress.json")
 
 
 def ask(address: str) -> dict:
