@@ -126,13 +126,13 @@ def tuned(answer: Any) -> Any:
             costs.extend(grid.cost(*grid.world_to_map(point.x, point.y)) for point in points)
 
         drive.graph.node("watch").subscriber("/move_base/GlobalPlanner/plan", PlannedPath, look)
-        off = drive.go(SOFA, 60.0)
+        off = drive.go(SOFA, 90.0)
         average = sum(costs) / len(costs)
         said = f"The plan crosses cells with costs of {average:.0f} on average and {max(costs)} at most"
         ceiling = (252 - NEUTRAL) / factor
         expect(average <= AVERAGE, f"{said}: it keeps too close to obstacles.", _advice(ceiling))
         expect(max(costs) <= HIGHEST, f"{said}: at one point it is too close to an obstacle.", _advice(ceiling))
-        expect(off < 0.25, f"After at most 60 s the robot is {off:.1f} m from its goal.")
+        expect(off < 0.25, f"After at most 90 s the robot is {off:.1f} m from its goal.")
         return drive.view()
 
 

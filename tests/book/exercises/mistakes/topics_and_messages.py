@@ -12,9 +12,9 @@ from sensor_msgs.msg import LaserScan
 def on_scan(scan):
     command = Twist()
     nearest = scan.ranges.index(min(scan.ranges))
-    if 5 < nearest <= 180:
+    if 10 < nearest <= 180:
         command.angular.z = 0.3
-    elif 180 < nearest < 355:
+    elif 180 < nearest < 350:
         command.angular.z = -0.3
     cmd_vel.publish(command)
 
@@ -87,10 +87,10 @@ rospy.spin()
 MISTAKES = {
     "face": [
         wrong("face.py", FACE, "min(scan.ranges)", "max(scan.ranges)"),
-        wrong("face.py", FACE, "= -0.3", "= 0.3"),
-        wrong("face.py", FACE, "5 < nearest <= 180", "nearest <= 180"),
+        wrong("face.py", FACE, "10 < nearest <= 180", "nearest > 180"),
+        wrong("face.py", FACE, "10 < nearest <= 180", "nearest >= 0"),
         wrong("face.py", FACE, "angular.z = 0.3", "linear.x = 0.1"),
-        wrong("face.py", FACE, "5 < nearest", "60 < nearest"),
+        wrong("face.py", FACE, "10 < nearest", "60 < nearest"),
         wrong("face.py", FACE, "    cmd_vel.publish(command)\n"),
         wrong("face.py", FACE, "scan.ranges.index", "scan.range.index"),
     ],
