@@ -176,7 +176,7 @@ class Recorder:
         ]
         own = self._first.recording(begin)
         if self._layers is not None:
-            own = replace(own, messages=self._layers.messages(begin))
+            own = replace(own, messages=self._layers.messages(begin), topics=tuple(sorted(self._layers.topics)))
         if not others and self._things is None:
             return own
         things = () if self._things is None else self._things.moved(begin, float(own.times[-1]))
@@ -307,7 +307,7 @@ class _Layers:
         self._node = recorder.node
         self._types: frozenset[str] = find_extension(RECORDED, "layers")()
         self._left_out = {self._node.resolve(things)} if things else set()
-        self._subscribed: set[str] = set()
+        self.topics: set[str] = set()
         self.kept: list[tuple[int, str, Any]] = []
         self._subscribe_new()
         self._node.timer(CHECK_PERIOD, lambda _event: self._subscribe_new())
@@ -315,8 +315,8 @@ class _Layers:
     def _subscribe_new(self) -> None:
         """Subscribe to new topics."""
         for topic, kind in sorted(self._node.master.ask("getTopicTypes")):
-            if kind in self._types and topic not in self._subscribed | self._left_out:
-                self._subscribed.add(topic)
+            if kind in self._types and topic not in self.topics | self._left_out:
+                self.topics.add(topic)
                 self._node.subscriber(topic, message_class(kind), self._keep, arguments=(topic,))
 
     def _keep(self, message: Any, topic: str) -> None:

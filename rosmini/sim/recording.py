@@ -141,6 +141,8 @@ class Recording:
     """Obstacles that were moved, or moved by themselves."""
     messages: tuple[tuple[float, str, Any], ...] = ()
     """Other messages: (time [s], topic, message), in order; maps, plans, particles ... and transforms."""
+    topics: tuple[str, ...] = ()
+    """The topics of other messages, also those without a message in this run."""
 
     def __post_init__(self) -> None:
         n, k, beams = (len(self.times), len(self.scan_times), 0 if self.model.lidar is None else self.model.lidar.beams)

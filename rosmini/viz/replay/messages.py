@@ -45,6 +45,8 @@ class Log(Protocol):
     name: str
     topics: dict[str, str]
     """The type of the messages on each topic."""
+    silent: Collection[str]
+    """Topics without a message."""
     start: float
     end: float
 
@@ -59,6 +61,7 @@ class BagLog:
         index = bag.index
         self.name = (bag.filename or "the bag").replace("\\", "/").rpartition("/")[2]
         self.topics = {conn.topic: conn.type for conn in bag.connections()}
+        self.silent: Collection[str] = ()
         if index.start is None or index.end is None:
             raise ViewError(f"{self.name} contains no messages, so there is nothing to play")
         self.start, self.end = index.start / 1e9, index.end / 1e9
@@ -73,11 +76,15 @@ class BagLog:
 
 
 class MemoryLog:
-    """Messages in memory: (time [s], topic, message)."""
+    """Messages in memory: (time [s], topic, message). `topics` are all that were recorded."""
 
-    def __init__(self, name: str, messages: Collection[tuple[float, str, Any]], start: float, end: float) -> None:
+    def __init__(
+        self, name: str, messages: Collection[tuple[float, str, Any]], start: float, end: float,
+        topics: Collection[str] = (),
+    ) -> None:  # fmt: skip
         self.name, self.start, self.end = name, start, end
         self.topics = {topic: message._type for _, topic, message in messages}
+        self.silent: Collection[str] = [topic for topic in topics if topic not in self.topics]
         self._messages = messages
 
     def entries(self, topics: Collection[str]) -> Iterator[Entry]:
@@ -118,7 +125,7 @@ def run_of(
     _collect(log, collectors)
     bodies = _bodies(frames, times, outline)
     layers: list[Layer] = []
-    notes = []
+    notes = [f"{topic}: no message in this time." for topic in topics or () if topic in log.silent]
     for topic, collector in dict.fromkeys((c.topic, c) for c in collectors.values()):
         found = collector.result()
         if isinstance(found, Body):
@@ -144,8 +151,9 @@ def run_of(
 def _shown(log: Log, topics: Collection[str] | None) -> list[str]:
     """Return the topics that can be shown, without those of transforms."""
     for topic in topics or ():
-        if topic not in log.topics:
-            raise ViewError(f"{log.name} has no message on {topic!r}. {nearest(topic, log.topics) or ''}".rstrip())
+        if topic not in log.topics and topic not in log.silent:
+            known = [*log.topics, *log.silent]
+            raise ViewError(f"{log.name} has no message on {topic!r}. {nearest(topic, known) or ''}".rstrip())
     return [
         topic
         for topic, kind in sorted(log.topics.items())

@@ -249,14 +249,20 @@ def run_from(source: Run | Bag | str | os.PathLike[str], *, robot: RobotModel | 
 
 
 def recorder_run(recording: Recording, **options: Any) -> Run | None:
-    """Return the messages of a recorder as a run that starts at the robot's true pose; None if they show nothing."""
+    """Return the messages of a recorder as a run that starts at the robot's true pose; None if they show nothing.
+
+    Raises:
+        ViewError: one of the `topics` asked for was not recorded, or there are only topics that show nothing.
+
+    """
     messages = recording.messages
     if not messages:
         return None
     start, end = float(recording.times[0]), float(recording.times[-1])
     x, y, heading = recording.truth[0].tolist()
     try:
-        run = run_of(MemoryLog("the run", messages, start, end), start_at=(x, y, heading), **options)
+        log = MemoryLog("the run", messages, start, end, recording.topics)
+        run = run_of(log, start_at=(x, y, heading), **options)
     except NothingToSee:
         return None
     believed: tuple[Body, ...] = ()
@@ -266,7 +272,11 @@ def recorder_run(recording: Recording, **options: Any) -> Run | None:
             replace(b, name=f"{b.name} in {run.frame}", colour=colour if b.colour == "blue" else b.colour)
             for b in run.bodies
         )
-    return replace(run, bodies=believed) if run.layers or believed else None
+    if run.layers or believed:
+        return replace(run, bodies=believed)
+    if options.get("topics") and run.notes:
+        raise NothingToSee(" ".join(run.notes))
+    return None
 
 
 def _colour_beside(run: Run) -> str:

@@ -333,6 +333,22 @@ def test_a_recorder_with_layers_keeps_what_can_be_seen_and_a_window_what_is_in_f
     assert "layers" not in plain.data
 
 
+def test_a_topic_without_a_message_in_this_run_is_no_error_but_an_unknown_one_is():
+    """A cell with a replay that is run again, when the robot is already at its goal, records no plan."""
+    graph = Graph()
+    recorder = Recorder(graph, Simulator(graph.node("simulator")), layers=True)
+    planner = graph.node("planner")
+    planner.publisher("/map", message_class("nav_msgs/OccupancyGrid"), latch=True).publish(a_map([[0, 100]]))
+    planner.publisher("/plan", message_class("nav_msgs/Path"))
+    graph.run(2.0)
+    recording = recorder.recording()
+    assert "/plan: no message in this time." in recording.replay(topics=["/map", "/plan"]).text.splitlines()
+    with pytest.raises(NothingToSee, match="/plan: no message in this time"):
+        recording.replay(topics=["/plan"])
+    with pytest.raises(ViewError, match=r"no message on '/plam'.*/plan"):
+        recording.replay(topics=["/plam"])
+
+
 def test_odometry_of_a_robot_with_a_prefix_is_not_drawn_twice():
     graph = Graph()
     graph.node("owner").set_param("/simulator/robots", [{"name": "amy", "x": 1.0, "y": 0.5}, {"name": "bob"}])
