@@ -450,6 +450,25 @@ def test_keys_turn_and_zoom_it(open_page):
     assert np.linalg.norm(camera(page)) == pytest.approx(1.15 * np.linalg.norm(begin))
     page.keyboard.press("Home")
     assert camera(page) == pytest.approx(begin, abs=1e-6)
+    frame = page.frame_locator("iframe")
+    assert frame.locator("canvas").evaluate("(canvas) => getComputedStyle(canvas).outlineWidth") == "3px"
+    assert frame.locator("p").is_visible()  # the keys
+    page.keyboard.press("Tab")
+    assert page.evaluate(focused) != "CANVAS"
+    assert not frame.locator("p").is_visible()
+
+
+def test_who_wants_less_motion_gets_a_picture_each_half_second(open_page):
+    page = open_page("deep/er/replay.html")
+    page.emulate_media(reduced_motion="reduce")
+    slider = page.get_by_role("slider", name="Time")
+    first = """(slider) => new Promise((done) => {
+      document.querySelector("button[aria-label='Step back'] + button").click();
+      const look = () => slider.value === "0" ? requestAnimationFrame(look) : done(Number(slider.value));
+      look();
+    })"""
+    assert slider.evaluate(first) >= 0.45
+    page.emulate_media(reduced_motion="null")
 
 
 def test_the_wheel_is_the_pages_until_the_picture_is_clicked(open_page):

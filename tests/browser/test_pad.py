@@ -415,6 +415,15 @@ def test_the_keyboard_alone_is_enough(show):
     pad.page.keyboard.press("Space")
     pad.run(0.5)
     assert pad.mood == "ready"
+    # Whoever chooses with keys stays, to choose again.
+    for _ in range(6):
+        pad.page.keyboard.press("Tab")
+    pad.page.keyboard.press("Space")
+    assert pad.focused() == "INPUT"
+    pad.page.keyboard.press("Shift+Tab")
+    pad.page.keyboard.press("ArrowUp")
+    pad.page.keyboard.press("ArrowDown")
+    assert pad.focused() == "SELECT"
 
 
 @pytest.mark.parametrize("name", ["light", *nightly("dark")])

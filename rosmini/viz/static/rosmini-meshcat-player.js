@@ -16,6 +16,7 @@
   const { find, make, orbit, ROBOT, ZOOM } = globalThis.rosminiMeshcat;
   const SPEEDS = [0.25, 0.5, 1, 2, 4, 8]; // as rosmini-replay.js has them
   const JUMP = 0.2; // seconds
+  const CALM = 500; // milliseconds between two pictures, for those who want less motion; as there
   const EARLY = 1; // seconds: a scan that comes so soon after the start is there from the start
   const SAMPLES = 240; // of the way that a robot has come
   const LASER = "var(--rosmini-vermilion, #d55e00)";
@@ -128,9 +129,10 @@
   function bar(panes, duration, options) {
     const state = { time: 0, playing: false, following: panes.some(({ data }) => data.follow !== null), shown: {} };
     const shown = () => panes.filter(({ viewer }) => viewer);
+    const calm = matchMedia("(prefers-reduced-motion: reduce)");
     const ink = { font: "inherit", color: "inherit" };
     const element = make("div", {}, {
-      display: "flex", flexWrap: "wrap", gap: "0.4em 0.8em", alignItems: "center", padding: "0.4em 0.1em",
+      display: "flex", flexWrap: "wrap", gap: "0.4em 0.8em", alignItems: "center", padding: "0.4em",
       color: "var(--rosmini-ink, inherit)", fontSize: "0.9em",
     });
     element.setAttribute("role", "group");
@@ -274,6 +276,7 @@
       let before = null;
       const next = (now) => {
         if (!state.playing || !element.isConnected) return toggle(false);
+        if (before !== null && calm.matches && now - before < CALM) return requestAnimationFrame(next);
         if (before !== null) seek(state.time + (Number(speed.value) * (now - before)) / 1000);
         before = now;
         return state.time >= duration ? toggle(false) : requestAnimationFrame(next);

@@ -133,8 +133,10 @@
         if (frame.contentDocument.getElementById("pane")) start(pane, address, options, bar);
       });
       frame.srcdoc = '<!DOCTYPE html><html lang="en"><title>3D</title><style>html,body{margin:0;height:100%;overflow:hidden}'
-        + "#pane{width:100vw;height:100vh}canvas{display:block;outline-offset:-3px}</style>"
-        + '<body><div id="pane"></div></body></html>';
+        + "#pane{width:100vw;height:100vh}canvas{display:block;outline-offset:-3px}canvas:focus-visible{outline-style:solid;outline-width:3px}"
+        + "p{bottom:6px;font:13px system-ui,sans-serif;left:10px;margin:0;pointer-events:none;position:fixed;visibility:hidden}"
+        + "#pane:has(canvas:focus-visible)+p{visibility:visible}</style>"
+        + '<body><div id="pane"></div><p aria-hidden="true"></p></body></html>';
     }
     options.show(true);
     return true;
@@ -185,7 +187,7 @@
     const [top, bottom, ink] = data.background ?? GROUND[name];
     const page = viewer.dom_element.ownerDocument;
     page.body.style.background = `linear-gradient(${top}, ${bottom})`;
-    viewer.renderer.domElement.style.outlineColor = ink;
+    viewer.renderer.domElement.style.outlineColor = page.querySelector("p").style.color = ink;
     for (const [path, colour] of Object.entries(data.themes[name])) {
       viewer.set_property(parts(path), "color", colour);
     }
@@ -233,6 +235,8 @@
     canvas.tabIndex = 0;
     canvas.setAttribute("role", "application");
     canvas.setAttribute("aria-label", `${pane.data.title ? `${pane.data.title}: ` : ""}${options.alt} Arrow keys turn it, plus and minus zoom, Home goes back.`);
+    // Shown while the picture has the focus of the keyboard.
+    canvas.ownerDocument.querySelector("p").textContent = `\u2190 \u2192 \u2191 \u2193 turn, + \u2212 zoom, Home resets${bar ? ", space plays" : ""}`;
     const hold = (held) => {
       controls.enableZoom = held;
       viewer.dom_element.style.touchAction = canvas.style.touchAction = held ? "none" : "pan-y";

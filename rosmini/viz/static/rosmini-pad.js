@@ -155,12 +155,12 @@
       const choice = (label, names, chosen, act) => {
         const select = element("select", { "aria-label": label });
         offer(select, names, chosen);
-        select.addEventListener("change", () => { act(select.value); this.stage.focus({ preventScroll: true }); });
+        select.addEventListener("change", () => { act(select.value); this.chosen(select); });
         return element("label", {}, element("span", { class: "rp-name" }, label), select);
       };
       this.hold = element("input", { type: "checkbox" });
       this.hold.checked = data.hold;
-      this.hold.addEventListener("change", () => this.stage.focus({ preventScroll: true }));
+      this.hold.addEventListener("change", () => this.chosen(this.hold));
       const box = element("div", { class: "rp-options" });
       this.drive = choice("Drive", data.choices ?? [], data.chosen, (name) => this.driver.choose(name));
       this.drive.hidden = (data.choices ?? []).length < 2;
@@ -171,6 +171,11 @@
       this.chooseKeys = keys.lastChild;
       box.append(keys, element("label", { title: "A dead man's switch: the robot stops when no key is held" }, this.hold, "hold to drive"));
       return box;
+    }
+
+    /* After a choice with the pointer the keys drive. Someone who chooses with keys may not be done, and stays. */
+    chosen(control) {
+      if (!control.matches(":focus-visible")) this.stage.focus({ preventScroll: true });
     }
 
     /* Have the buttons and the words of other keys. */
