@@ -54,6 +54,8 @@ import rosmini.core, rosmini.msgs
 
 for package in (rosmini.core, rosmini.msgs):
     for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+        if module.name == "rosmini.core.graph.promise_stacks":
+            continue  # can be imported on Emscripten only
         __import__(module.name)
         print(module.name)
 """
@@ -87,7 +89,8 @@ def test_a_listener_hears_a_talker(core_alone):
 def test_every_module_of_core_can_be_imported(core_alone):
     imported = run_alone(core_alone, EVERY_MODULE)
     files = [path for room in ("core", "msgs") for path in (core_alone / "rosmini" / room).rglob("*.py")]
-    assert len(imported) == len(files) - 2  # `core` and `msgs` themselves are not listed
+    # Three are not listed: `core` and `msgs` themselves, and the module for Emscripten.
+    assert len(imported) == len(files) - 3
 
 
 def test_another_room_cannot_be_imported(core_alone):

@@ -1,7 +1,8 @@
 """The graph, its commands and Logo work where numpy and the other large packages are absent."""
 
-import subprocess
 import sys
+
+from ..processes import run
 
 ABSENT = ("PIL", "lz4", "matplotlib", "numba", "numpy", "pymunk", "scipy")
 
@@ -57,9 +58,7 @@ print("finished")
 
 
 def test_nodes_commands_and_logo_need_no_numpy(tmp_path):
-    done = subprocess.run(
-        [sys.executable, "-c", SCRIPT], cwd=tmp_path, capture_output=True, encoding="utf-8", check=False
-    )
+    done = run([sys.executable, "-c", SCRIPT], cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     assert "heard hello" in done.stdout
     assert "success: True" in done.stdout

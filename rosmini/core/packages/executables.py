@@ -122,7 +122,7 @@ def _has_shebang(path: Path) -> bool:
 def has_run_bit(path: Path) -> bool:
     """Return whether the file is executable.
 
-    On Emscripten wheels are unpacked without run bits, so a script of rosmini's own packages counts as executable.
+    On Emscripten wheels are unpacked without run bits, so scripts in rosmini's packages count as executable.
     """
     if os.access(path, os.X_OK):
         return True
