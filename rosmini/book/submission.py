@@ -61,7 +61,7 @@ def cells(path: Path) -> list[str]:
         found = json.loads(path.read_text(encoding="utf-8"))["cells"]
         return ["".join(cell["source"]) if cell["cell_type"] == "code" else "" for cell in found]
     except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
-        raise SubmissionError(f"it is no notebook ({type(error).__name__}: {error})") from error
+        raise SubmissionError(f"it is not a notebook ({type(error).__name__}: {error})") from error
 
 
 def exercises_in(sources: Sequence[str]) -> list[str]:

@@ -56,7 +56,7 @@ def opened(path: str | os.PathLike[str]) -> Iterator[Image]:
     except FileNotFoundError:
         raise
     except UnidentifiedImageError as error:
-        raise ImageError(f"this is no image ({', '.join(FORMATS)})") from error
+        raise ImageError(f"this is not an image ({', '.join(FORMATS)})") from error
     except Image.DecompressionBombError as error:
         raise ImageError(f"it has too many pixels; {MAX_PIXELS} are allowed") from error
     # Errors that Pillow raises for broken files.

@@ -108,7 +108,7 @@ def namespace(name: str) -> str:
     Raises ``ValueError`` for None and ``TypeError`` for anything else that is not a str.
     """
     if name is None:
-        raise ValueError("None is no name: namespace() takes a text, such as '/robot1/talker'")
+        raise ValueError("None is not a name: namespace() takes a text, such as '/robot1/talker'")
     if not isinstance(name, str):
         raise TypeError(f"a name is a str, not {type(name).__name__} ({name!r})")
     return name.removesuffix("/").rpartition("/")[0] + "/"

@@ -45,4 +45,4 @@ def check_room(engine: Engine, thing: Obstacle, pose: Pose) -> None:
         if obstruction is not None:
             x, y, theta = pose
             where = f"({x:.2f}, {y:.2f}) with heading {theta:.2f}"
-            raise WorldError(f"{thing.name!r} cannot be put to {where}: {obstruction} is in its way")
+            raise WorldError(f"{thing.name!r} cannot be moved to {where}: {obstruction} is in its way")

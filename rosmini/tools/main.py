@@ -222,7 +222,7 @@ def in_script(name: str, words: Sequence[str]) -> int:
     """
     tool = COMMANDS[name].tool()
     if tool is None:
-        raise UsageError(f"{name} is no tool that a script can run")
+        raise UsageError(f"{name} is not a tool that a script can run")
     return Terminal(tool).reported(lambda: tool.run(*(word for word in words if not is_remapping(word))))
 
 

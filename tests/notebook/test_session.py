@@ -209,5 +209,5 @@ def test_the_tools_of_a_terminal_obey_the_masters_address(notebook):
     assert said.count("`export ROS_MASTER_URI=http://localhost:11311`\n") == 2
     assert "$ rosmsg md5 std_msgs/String\n992ce8a1687cec8c8bd883ec73ca41d1\n" in said
     assert "$ ROS_MASTER_URI=http://127.0.0.1:11311 rosnode list\n/rosout\n" in said
-    assert "rosnode: ROS_MASTER_URI is 'robot', which is no address of a Master" in said
+    assert "rosnode: ROS_MASTER_URI is 'robot', which is not the address of a Master" in said
     assert said.endswith("$ unset ROS_MASTER_URI\n$ rosnode list\n/rosout\n")

@@ -166,7 +166,7 @@ def test_it_is_reached_at_the_address_that_was_given(port: int, tmp_path: Path) 
     [
         (["-p", "0"], {}, "not the number of a port"),
         (["chatter"], {}, "roscore takes no argument 'chatter'"),
-        ([], {"ROS_MASTER_URI": "localhost"}, "ROS_MASTER_URI is 'localhost', which is no address of a Master"),
+        ([], {"ROS_MASTER_URI": "localhost"}, "ROS_MASTER_URI is 'localhost', which is not the address of a Master"),
     ],
 )
 def test_what_makes_no_sense_is_refused(words: list[str], variables: dict[str, str], says: str) -> None:

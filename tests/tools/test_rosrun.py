@@ -154,8 +154,8 @@ def test_the_exit_status_is_the_script_s(session: Session) -> None:
     [
         (["nowhere", "x"], "nowhere"),
         (["speaking", "talke.py"], "talker.py"),
-        (["speaking", "talker.py", "__master:=robot"], "__master:= is 'robot', which is no address of a Master"),
-        (["speaking", "talker.py", "__ip:=0.0.0.0"], "__ip:= is 0.0.0.0, which nobody can connect to"),
+        (["speaking", "talker.py", "__master:=robot"], "__master:= is 'robot', which is not the address of a Master"),
+        (["speaking", "talker.py", "__ip:=0.0.0.0"], "__ip:= is 0.0.0.0, which no other computer can connect to"),
     ],
 )
 def test_what_makes_no_sense_is_refused(session: Session, words: list[str], says: str) -> None:

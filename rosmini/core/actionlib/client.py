@@ -309,9 +309,9 @@ class ActionClient:
         if self._goals and not ends:
             count = len(self._goals)
             self.node.logwarn(
-                f"the action server {peer} of {self.ns} has gone, with {count} goal{'s' * (count > 1)} open. "
-                "As in ROS nothing tells how such a goal ends, unless a new server comes that does not know it (LOST): "
-                "wait with a time-out."
+                f"the action server {peer} of {self.ns} has ended, with {count} goal{'s' * (count > 1)} open. "
+                "As in ROS, nothing reports how such a goal ends, unless a new server starts that does not know it "
+                "(LOST): wait with a timeout."
             )
 
     # -- incoming messages ---------------------------------------------------------------------------------------

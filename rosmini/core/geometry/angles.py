@@ -85,7 +85,7 @@ def yaw_from_quaternion(x: float, y: float, z: float, w: float) -> float:
     square = x * x + y * y + z * z + w * w
     if not 0 < square < math.inf:
         msg = (
-            f"x={x}, y={y}, z={z}, w={w} is no rotation; a quaternion has a length, and no rotation at all is "
+            f"x={x}, y={y}, z={z}, w={w} is not a rotation: its length is 0 or not finite; for no rotation, use "
             "x=y=z=0, w=1 (a new geometry_msgs/Quaternion has w=0)"
         )
         raise GeometryError(msg)

@@ -139,7 +139,7 @@ def wire_copy(value: Any, key: str = "") -> Any:
     if kind is dict:
         for name in value:
             if type(name) is not str:
-                raise ParameterError(f"{key}: the key {name!r} is no str, but the parts of a parameter's name are")
+                raise ParameterError(f"{key}: the key {name!r} is not a str, but the parts of a parameter's name are")
         return {name: wire_copy(item, join(key, name)) for name, item in value.items()}
     module = "" if kind.__module__ == "builtins" else kind.__module__ + "."
     raise ParameterError(

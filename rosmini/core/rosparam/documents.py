@@ -38,7 +38,7 @@ def degrees(text: str) -> float:
         return float(inner) * math.pi / 180.0
     except ValueError as error:
         raise RosParamException(
-            f"{shown(text)} is no angle in degrees: write a number, such as deg(90) or !degrees 90"
+            f"{shown(text)} is not an angle in degrees: write a number, such as deg(90) or !degrees 90"
         ) from error
 
 
@@ -58,7 +58,7 @@ def radians(text: str, budget: Budget | None = None) -> float:
         return float(value)
     except (ExpressionError, OverflowError) as error:
         raise RosParamException(
-            f"{shown(text)} is no angle in radians ({error}): write a number or an expression, such as rad(2*pi)"
+            f"{shown(text)} is not an angle in radians ({error}): write a number or an expression, such as rad(2*pi)"
         ) from error
 
 

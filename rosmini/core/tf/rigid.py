@@ -49,8 +49,8 @@ def rigid(translation: Sequence[float] = (0.0, 0.0, 0.0), rotation: Sequence[flo
     length = math.sqrt(qx * qx + qy * qy + qz * qz + qw * qw)
     if not 0 < length < math.inf:
         raise InvalidArgumentException(
-            f"the quaternion x={qx:g}, y={qy:g}, z={qz:g}, w={qw:g} is no rotation: no rotation at all is x=y=z=0, w=1 "
-            "(a new geometry_msgs/Quaternion has w=0)"
+            f"the quaternion x={qx:g}, y={qy:g}, z={qz:g}, w={qw:g} is not a rotation: for no rotation, use "
+            "x=y=z=0, w=1 (a new geometry_msgs/Quaternion has w=0)"
         )
     return (x, y, z, qx / length, qy / length, qz / length, qw / length)
 

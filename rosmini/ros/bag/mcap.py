@@ -88,7 +88,7 @@ def from_mcap(source: str | os.PathLike[str], target: str | os.PathLike[str] | B
     """Write all messages of an MCAP file with a ROS 1 profile to a bag, in the order of the file.
 
     Raises:
-        ROSBagException: it is no MCAP file or is damaged, a channel is not from ROS 1, or the package `mcap` is not
+        ROSBagException: it is not an MCAP file or is damaged, a channel is not from ROS 1, or the package `mcap` is not
             installed. No file is left behind.
         OSError: a file cannot be read or written.
 
@@ -142,7 +142,9 @@ def _messages(file: IO[bytes], name: str) -> Iterator[tuple[Any, Any, Any]]:
                 channel = channels[record.channel_id]
                 yield schemas.get(channel.schema_id), channel, record
     except (McapError, ValueError, OverflowError, struct.error, ROSBagFormatException) as error:
-        raise ROSBagException(f"{name} is no MCAP file, or is damaged before byte {file.tell()}: {error}") from error
+        raise ROSBagException(
+            f"{name} is not an MCAP file, or is damaged before byte {file.tell()}: {error}"
+        ) from error
 
 
 def _records(file: IO[bytes]) -> Iterator[Any]:

@@ -85,7 +85,7 @@ def seconds(parser: Parser, text: str) -> float:
     try:
         return float(text[:-1]) * unit if unit else float(text)
     except ValueError:
-        parser.error(f"{text!r} is no duration: write seconds (30), minutes (5m) or hours (1h)")
+        parser.error(f"{text!r} is not a duration: write seconds (30), minutes (5m) or hours (1h)")
 
 
 def record_options(args: Sequence[str]) -> RecordOptions:

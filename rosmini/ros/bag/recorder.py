@@ -97,7 +97,7 @@ def _pattern(text: str) -> re.Pattern[str]:
     try:
         return re.compile(text)
     except re.error as error:
-        raise ROSBagException(f"{text!r} is no regular expression: {error}") from error
+        raise ROSBagException(f"{text!r} is not a regular expression: {error}") from error
 
 
 class Recorder:

@@ -108,7 +108,7 @@ def parse_fields(header: bytes, where: str) -> dict[str, bytes]:
         length = u32.unpack_from(header, at)[0]
         name, equals, value = header[at + 4 : at + 4 + length].partition(b"=")
         if at + 4 + length > end or not equals:
-            raise ROSBagFormatException(f"{where}: a header field is no name=value: the file is damaged or not a bag")
+            raise ROSBagFormatException(f"{where}: a header field is not name=value: the file is damaged or not a bag")
         fields[name.decode("utf-8", "replace")] = value
         at += 4 + length
     return fields
@@ -183,7 +183,7 @@ def time_field(record: Record, name: str) -> int:
     time = (packed & 0xFFFFFFFF) * NSECS + (packed >> 32)
     if time > LATEST:
         raise ROSBagFormatException(
-            f"the record at byte {record.position} has a {name!r} that is no time: the file is damaged"
+            f"the record at byte {record.position} has a {name!r} that is not a time: the file is damaged"
         )
     return time
 

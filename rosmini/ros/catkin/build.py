@@ -143,7 +143,7 @@ def _ordered(sources: Sequence[Source], wanted: set[str]) -> list[Source]:
         sorter.prepare()
     except CycleError as error:
         circle = " -> ".join(reversed(error.args[1]))
-        raise CatkinError(f"packages need each other in a circle: {circle}; take one <depend> out") from error
+        raise CatkinError(f"packages depend on each other in a circle: {circle}; take one <depend> out") from error
     order: list[Source] = []
     while sorter.is_active():
         ready = sorted(sorter.get_ready())

@@ -96,7 +96,7 @@ class Generator:
         if kind in ("str", "bool") and limits[1:] != (None, None):
             raise ValueError(f"{name} is a {kind}_t, which has no minimum and no maximum")
         if any(isinstance(value, float) and math.isnan(value) for value in limits):
-            raise ValueError(f"a value of {name} is no number (nan)")
+            raise ValueError(f"a value of {name} is not a number (nan)")
         made = filled_parameter(name, kind, level, description, *limits, edit_method=edit_method)
         self._note("parameter", name)
         if kind in ("int", "double") and made.min > made.max:
@@ -117,7 +117,7 @@ class Generator:
         value = cast_value(name, type, value)
         self._budget.spend(len(descr) + len(str(value)))
         if value != value:  # noqa: PLR0124 (nan)
-            raise ValueError(f"the constant {name} is no number (nan)")
+            raise ValueError(f"the constant {name} is not a number (nan)")
         self._note("constant", name)
         made = {"name": name, "type": type, "value": value, **self._place(), "description": descr}
         self.constants.append({**made, **_cpp(type)})
@@ -149,7 +149,7 @@ class Generator:
         """Record a name. Raises ``ValueError`` if it is a duplicate, or if there are too many."""
         if (what, name) in self._seen:
             first = self._seen[what, name]
-            raise ValueError(f"the {what} {name} is there already, in line {first}: give each a name of its own")
+            raise ValueError(f"the {what} {name} already exists, in line {first}: give each a different name")
         self._seen[what, name] = self.line
         if len(self._seen) > MAX_ITEMS:
             raise ValueError(f"more than {MAX_ITEMS} parameters, groups and constants")

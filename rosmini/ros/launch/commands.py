@@ -37,7 +37,7 @@ def output_of(command: str, packages: PackageIndex) -> str:
     try:
         words = shlex.split(command)
     except ValueError as error:
-        raise UsageError(f"command [{command}] cannot be taken apart: {error}") from error
+        raise UsageError(f"command [{command}] cannot be split into words: {error}") from error
     if words and PurePath(words[0]).name in PYTHONS:
         words = words[1:]
     if words[:1] == ["rosrun"]:

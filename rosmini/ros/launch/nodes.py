@@ -121,7 +121,7 @@ def _options(loading: Loading, element: Element, scope: Scope) -> dict[str, Any]
         try:
             shlex.split(text or "")
         except ValueError as error:
-            raise element.error(f'{name}="{text}" cannot be taken apart into words: {error}') from error
+            raise element.error(f'{name}="{text}" cannot be split into words: {error}') from error
     if machine:
         loading.machine_needed(element, machine)
     return {

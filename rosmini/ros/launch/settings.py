@@ -184,6 +184,6 @@ def read_env(loading: Loading, element: Element, scope: Scope) -> None:
     if not name:
         raise element.error("<env>: 'name' attribute must be non-empty")
     if "=" in name or "\0" in name + value:
-        raise element.error(f"<env>: {shown(name)} is no name of an environment variable")
+        raise element.error(f"<env>: {shown(name)} is not the name of an environment variable")
     scope.environment.pop(name, None)
     scope.environment[name] = value

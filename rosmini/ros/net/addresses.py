@@ -169,7 +169,7 @@ def host_and_port(uri: str, source: str = "the Master's address", *, any_port: b
     is_refused = port == 0 and not any_port
     if not host or parts.scheme not in ("http", "rosrpc") or parts.path not in ("", "/") or is_refused:
         raise ROSInitException(
-            f"{source} is {shown(uri)}, which is no address of a Master. It has the form http://host:port, "
+            f"{source} is {shown(uri)}, which is not the address of a Master. It has the form http://host:port, "
             f"such as {MASTER_URI}."
         )
     return host, 80 if port is None else port
@@ -217,8 +217,8 @@ def _check_host(host: str, source: str) -> None:
         )
     if is_literal(host) and (ip_address(host).is_unspecified or ip_address(host).is_multicast):
         raise ROSInitException(
-            f"{source} is {host}, which nobody can connect to. Give an address of this machine, such as those that "
-            "`hostname -I` prints."
+            f"{source} is {host}, which no other computer can connect to. Give an address of this machine, such as "
+            "those that `hostname -I` prints."
         )
 
 

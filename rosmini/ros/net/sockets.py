@@ -133,7 +133,7 @@ async def connect(host: str, port: int) -> socket.socket:
     Raises :class:`Unreached` if no process listens there, or the name or the route is unknown.
     """
     if not 0 < port < 65536:
-        raise Unreached(f"nobody can be reached at {shown(host)}, port {port}: ports are 1 to 65535", host)
+        raise Unreached(f"nothing can be reached at {shown(host)}, port {port}: ports are 1 to 65535", host)
     family, address = await resolve(host, port)
     made = socket.socket(family, socket.SOCK_STREAM)
     try:
@@ -143,7 +143,7 @@ async def connect(host: str, port: int) -> socket.socket:
     except OSError as error:
         made.close()
         reason = os.strerror(error.errno) if error.errno else str(error)
-        raise Unreached(f"nobody can be reached at {host}:{port}: {reason}", host) from error
+        raise Unreached(f"nothing can be reached at {host}:{port}: {reason}", host) from error
     except BaseException:
         made.close()
         raise

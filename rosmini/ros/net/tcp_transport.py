@@ -240,7 +240,7 @@ async def _open(io: IoThread, host: str, port: int, header: Header, *, ok_byte: 
     except TimeoutError as error:
         raise Unreached(f"{host}:{port} does not answer within {CONNECT_S:g} s", host) from error
     except DeserializationError as error:
-        raise TransportException(f"what answers at {host}:{port} is no node of ROS 1: {error}") from error
+        raise TransportException(f"what answers at {host}:{port} is not a node of ROS 1: {error}") from error
     except OSError as error:
         raise TransportException(f"the connection to {host}:{port} broke: {error}") from error
 

@@ -50,7 +50,7 @@ def host_and_port(uri: str, scheme: str = "http") -> tuple[str, int]:
     except ValueError:
         host = port = None
     if host is None or not port or parts.scheme != scheme:
-        raise TransportException(f"{uri!r} is no address: it should read {scheme}://host:port/")
+        raise TransportException(f"{uri!r} is not an address: it should read {scheme}://host:port/")
     return host, port
 
 

@@ -199,7 +199,7 @@ class XmlRpcServer:
     async def _answer(self, document: Document, caller: str) -> bytes:
         arguments, method = document.close()
         if method is None:
-            raise TransportException("the document is no call: it names no method")
+            raise TransportException("the document is not a call: it names no method")
         try:
             self.caller = caller
             value = self._handler(method, arguments)

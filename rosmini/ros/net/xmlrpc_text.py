@@ -146,4 +146,4 @@ class Document:
         except TransportException:
             raise
         except Exception as error:
-            raise TransportException(f"the document is no XML-RPC: {type(error).__name__}: {error}") from error
+            raise TransportException(f"the document is not XML-RPC: {type(error).__name__}: {error}") from error

@@ -183,7 +183,7 @@ def spin() -> None:
     node, session = current_node(), current_session()
     if session.is_main and session.graph.notebook:
         raise ROSException(
-            "rospy.spin() never comes back, so a plain cell cannot call it. A script that spins is a cell of its own, "
+            "rospy.spin() never returns, so a plain cell cannot call it. A script that spins needs a separate cell, "
             "which begins with %%node NAME.py; in a plain cell rosmini.wait(3) lets callbacks run for three seconds"
         )
     if node is None:

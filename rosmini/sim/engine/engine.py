@@ -334,7 +334,7 @@ class Engine:
         obstruction = self._obstruction_of(obstacle)
         if obstruction is not None:
             where = "({:.2f}, {:.2f})".format(*obstacle.pose)
-            raise WorldError(f"the obstacle {obstacle.name!r} cannot be put to {where}: {obstruction} is in its way")
+            raise WorldError(f"the obstacle {obstacle.name!r} cannot be moved to {where}: {obstruction} is in its way")
         self._insert(obstacle)
 
     def _obstruction_of(self, obstacle: Obstacle) -> str | None:

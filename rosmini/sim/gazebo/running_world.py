@@ -192,7 +192,7 @@ class RunningWorld(GazeboWorld):
         except Exception as error:  # a plugin can raise anything
             self._remove(model)
             why = error if isinstance(error, RosminiError) else f"a plugin raised {type(error).__name__}: {error}"
-            raise SpawnError(f"the model {name!r} cannot come into the world: {why}") from error
+            raise SpawnError(f"the model {name!r} cannot be added to the world: {why}") from error
         return model
 
     def _check_new(self, name: str, pose: Pose6) -> None:
@@ -209,7 +209,7 @@ class RunningWorld(GazeboWorld):
             model.body = body
             self.engine.add(model.name, body.robot_model(), compose((x, y, yaw), body.axle))
         except RosminiError as error:
-            raise SpawnError(f"the model {model.name!r} cannot come into the world: {error}") from error
+            raise SpawnError(f"the model {model.name!r} cannot be added to the world: {error}") from error
         for note in body.notes:
             self.node.logwarn(note)
 
@@ -220,7 +220,7 @@ class RunningWorld(GazeboWorld):
         try:
             model.obstacles = self._insert_all(obstacles)
         except RosminiError as error:
-            raise SpawnError(f"the model {model.name!r} cannot come into the world: {error}") from error
+            raise SpawnError(f"the model {model.name!r} cannot be added to the world: {error}") from error
         if not any(obstacle.movable or obstacle.motion for obstacle in obstacles):
             model.fixed = model.start
 

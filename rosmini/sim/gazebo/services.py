@@ -284,7 +284,7 @@ class Services:
             for name, position in zip(request.joint_names, request.joint_positions, strict=True):
                 if abs(position - model.joint(name)[0]) > 1e-9:
                     raise Refusal(
-                        f"SetModelConfiguration: the joint {name!r} cannot be put to {position:g}: rosmini moves no "
+                        f"SetModelConfiguration: the joint {name!r} cannot be moved to {position:g}: rosmini moves no "
                         "joints but driven wheels"
                     )
         return success("SetModelConfiguration: success")

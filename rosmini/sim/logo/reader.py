@@ -141,7 +141,7 @@ def _procedure(title: LogoList, rest: Iterator[LogoList]) -> Procedure:
         if _first(each) == "to":
             raise LogoError(f"to {written} has no end before the next to, in line {_line_of(each)}", line)
         body.append(each)
-    raise LogoError(f"to {written} has no end: write end in a line of its own", line)
+    raise LogoError(f"to {written} has no end: write end on a separate line", line)
 
 
 def _first(line: LogoList) -> str:

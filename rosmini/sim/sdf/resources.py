@@ -161,7 +161,7 @@ def _described(folder: Path, asked: Element) -> Path:
     if not config.is_file():
         if (folder / "model.sdf").is_file():
             return folder / "model.sdf"
-        raise _missing(asked, f"{folder} is no model: it has no model.config")
+        raise _missing(asked, f"{folder} is not a model: it has no model.config")
     named = [(_version(tag), tag) for tag in read_file(config).all("sdf") if tag.text]
     if not named:
         raise SdfError("no <sdf> says which file describes the model", str(config), 1)

@@ -57,7 +57,7 @@ def tokens(text: str, path: Path, *, included: bool = False) -> Iterator[Token]:
         found = _TOKEN.match(text, at)
         if found is None:
             column = at - text.rfind("\n", 0, at)
-            raise StageError(place, _complaint(text, at), f"this is no world file from column {column} on")
+            raise StageError(place, _complaint(text, at), f"this is not a world file from column {column} on")
         at = found.end()
         match found.lastgroup:
             case "line":

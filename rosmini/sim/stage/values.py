@@ -160,7 +160,7 @@ class Reader:
             self.units.note(
                 found.place,
                 f'{found.name} is "{value}", which Stage reads as the number {number:g}',
-                unquoted=f"{found.name} is no number; Stage reads it as {number:g}",
+                unquoted=f"{found.name} is not a number; Stage reads it as {number:g}",
             )
         return number
 

@@ -33,7 +33,7 @@ def check_tree(
         for role, name in (("parent", joint.parent), ("child", joint.child)):
             if name not in links:
                 hint = nearest(name, links) or f"the links are: {', '.join(links)}"
-                raise here.error(f"the {role} of the joint {joint.name!r} is no link: {name!r}; {hint}")
+                raise here.error(f"the {role} of the joint {joint.name!r} is not a link: {name!r}; {hint}")
         if joint.parent == joint.child:
             raise here.error(f"the joint {joint.name!r} connects the link {joint.child!r} to itself")
         if joint.child in above:
@@ -79,7 +79,7 @@ def mimic_problem(joint: Joint, joints: Mapping[str, Joint]) -> str:
         followed = at.mimic.joint
         if followed not in joints:
             hint = nearest(followed, joints)
-            return f"the joint {at.name!r} mimics {followed!r}, which is no joint{f'; {hint}' if hint else ''}"
+            return f"the joint {at.name!r} mimics {followed!r}, which is not a joint{f'; {hint}' if hint else ''}"
         if followed in way:
             return f"joints mimic one another in a circle: {' -> '.join([*way, followed])}"
         at = joints[followed]

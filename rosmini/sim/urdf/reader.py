@@ -238,7 +238,7 @@ class _Reader:
             return self.mesh(shape)
         hint = self.hint(shape.tag, ("box", "cylinder", "sphere", "mesh"))
         raise shape.error(
-            f"<{shape.tag}> is no shape: there are box, cylinder, sphere and mesh{f'; {hint}' if hint else ''}"
+            f"<{shape.tag}> is not a shape: there are box, cylinder, sphere and mesh{f'; {hint}' if hint else ''}"
         )
 
     def mesh(self, element: Element) -> Mesh:

@@ -137,7 +137,7 @@ def test_a_server_that_goes_and_one_that_comes(sim, log):
     sim.run(0.1)
     desk.node.shutdown()
     sim.run(1)
-    assert "the action server /server of /work has gone, with 1 goal open" in log()
+    assert "the action server /server of /work has ended, with 1 goal open" in log()
     assert handle.get_comm_state() is CommState.ACTIVE  # as in ROS nothing says more
     assert not client.wait_for_server(0.5)
     Desk(sim)

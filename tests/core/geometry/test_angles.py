@@ -87,5 +87,5 @@ def test_yaw_is_the_angle_about_z_of_yaw_pitch_roll(yaw, pitch, roll, length):
 
 @pytest.mark.parametrize("numbers", [(0, 0, 0, 0), (math.nan, 0, 0, 1), (0, 0, math.inf, 1)])
 def test_what_is_no_rotation_is_refused(numbers):
-    with pytest.raises(GeometryError, match=r"is no rotation.*w=1"):
+    with pytest.raises(GeometryError, match=r"is not a rotation.*w=1"):
         yaw_from_quaternion(*numbers)

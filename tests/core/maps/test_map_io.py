@@ -144,7 +144,7 @@ def test_a_text_pgm_a_palette_16_bits_and_1_bit_are_read(write, tmp_path):
         ("image", "''", "'image' is ''"),
         ("image", "7", "'image' is 7"),
         ("image", "other.png", r"other\.png, which is not there"),
-        ("image", "map.yaml", r"map\.yaml, which cannot be read: this is no image"),
+        ("image", "map.yaml", r"map\.yaml, which cannot be read: this is not an image"),
         ("image", "'.'", "cannot be read"),
         ("resolution", None, "no field 'resolution'"),
         ("resolution", "0", "'resolution' is 0"),

@@ -46,8 +46,8 @@ def test_any_text_is_read_or_refused(text: str) -> None:
     [
         ("a: 1\nb: [1, 2\nc: 3\n", r"p\.yaml:3: this is not YAML: .*expected ',' or '\]'"),
         ("a:\n\tb: 1\n", r"p\.yaml:2: .*indent with spaces, not with tabs"),
-        ("a: 1\nb: rad(2*tau)\n", r"p\.yaml:2: 'rad\(2\*tau\)' is no angle"),
-        ("a: 1\nb: !degrees north\n", r"p\.yaml:2: 'north' is no angle"),
+        ("a: 1\nb: rad(2*tau)\n", r"p\.yaml:2: 'rad\(2\*tau\)' is not an angle"),
+        ("a: 1\nb: !degrees north\n", r"p\.yaml:2: 'north' is not an angle"),
         ("a: 1\n\nb: !robot x\n", r"p\.yaml:3: .*!robot"),
         ("a: &x [1, *x]\n", r"p\.yaml:1: this value contains itself"),
         ("a: 1\n---\n---\nb: 2\n", r"p\.yaml:3: this document is empty"),

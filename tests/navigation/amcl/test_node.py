@@ -216,7 +216,7 @@ def test_initial_poses_that_are_no_poses(graph):
     message.header.frame_id, message.pose.pose.position.x = "map", 3.0
     robot.initial.publish(message)
     robot.say(3.0, 1.0, variance=-1.0)
-    assert robot.heard("ignoring an initial pose: x=0.0, y=0.0, z=0.0, w=0.0 is no rotation")
+    assert robot.heard("ignoring an initial pose: x=0.0, y=0.0, z=0.0, w=0.0 is not a rotation")
     assert robot.heard("ignoring an initial pose: it has a variance below 0: -1, -1, -1")
     assert amcl.localizer.filter.mean().mean == before
     request = {"map": hall(resolution=0.1).to_message("map", robot.node.now()), "initial_pose": Posed()}

@@ -95,7 +95,7 @@ def test_a_bag_comes_back_out_of_a_file_to_the_byte(bag, tmp_path):
 @pytest.mark.parametrize("text", [b"", b"#ROSBAG V2.0\n", b"\x89MCAP0\r\n" + 40 * b"\x05"])
 def test_what_is_no_mcap_file_is_refused_and_leaves_nothing(tmp_path, text):
     (tmp_path / "a.mcap").write_bytes(text)
-    with pytest.raises(ROSBagException, match="no MCAP file, or is damaged"):
+    with pytest.raises(ROSBagException, match="not an MCAP file, or is damaged"):
         from_mcap(tmp_path / "a.mcap", tmp_path / "a.bag")
     assert [path.name for path in tmp_path.iterdir()] == ["a.mcap"]
 
@@ -132,7 +132,7 @@ def test_a_chunk_is_unpacked_as_far_as_it_claims_to_go_and_no_further(tmp_path, 
     (tmp_path / "a.mcap").write_bytes(data)
     tracemalloc.start()
     try:
-        with pytest.raises(ROSBagException, match=r"a\.mcap is no MCAP file, or is damaged"):
+        with pytest.raises(ROSBagException, match=r"a\.mcap is not an MCAP file, or is damaged"):
             from_mcap(tmp_path / "a.mcap", tmp_path / "a.bag")
         _, most = tracemalloc.get_traced_memory()
     finally:

@@ -123,7 +123,7 @@ def test_what_follows_from_what_is_missing_is_not_told_as_well() -> None:
         ('<node pkg="p" type="t" name="robot/n"/>', 'give the namespace as ns="robot"'),
         ('<param name="a" value="1" type="integer"/>', "Unknown type 'integer'; the types are str"),
         ('<param name="a" value="4000000000"/>', "32 bits"),
-        ('<node pkg="p" type="t" name="n" args="it\'s"/>', "cannot be taken apart into words"),
+        ('<node pkg="p" type="t" name="n" args="it\'s"/>', "cannot be split into words"),
         ('<param name="a" value="$(find x $(arg y))"/>', "cannot be inside of substitution args"),
         ('<param name="a" value="x $(eval 1)"/>', "must be the whole value"),
         ('<param name="a" value="$(eval __import__(\'os\'))"/>', "__import__"),

@@ -95,7 +95,7 @@ ERROR = encode_header({"error": "not you"})
     [
         (b"", "closed before its header came"),
         (b"\x10\x00", "closed before its header came"),
-        (LONG, "no node of ROS 1"),
+        (LONG, "not a node of ROS 1"),
         (b"HTTP/1.1 400 Bad Request\r\n\r\n", "HTTP"),
         (encode_header(HEADER) + LONG, "4294967295 bytes"),
         (encode_header(HEADER) + GOOD + LONG, "4294967295 bytes"),

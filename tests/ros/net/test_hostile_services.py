@@ -46,9 +46,9 @@ def serving(graph: Graph, *answers: bytes) -> Iterator[RawServer]:
     [
         ([b""], "unable to connect to service .*/evil.*closed before its header came"),
         ([HEADER[:9]], "unable to connect to service .*/evil.*closed before its header came"),
-        ([struct.pack("<I", 2**32 - 1)], "no node of ROS 1.*4294967295 bytes"),
-        ([b"HTTP/1.1 400 Bad Request\r\n\r\n"], "no node of ROS 1.*HTTP"),
-        ([frame(frame(b"no equals sign"))], "no node of ROS 1"),
+        ([struct.pack("<I", 2**32 - 1)], "not a node of ROS 1.*4294967295 bytes"),
+        ([b"HTTP/1.1 400 Bad Request\r\n\r\n"], "not a node of ROS 1.*HTTP"),
+        ([frame(frame(b"no equals sign"))], "not a node of ROS 1"),
         ([encode_header({"error": "not today"})], "unable to connect to service .*/evil.*not today"),
         ([HEADER], "unable to receive data from sender"),
         ([HEADER, b"\x01"], "unable to receive data from sender"),

@@ -56,7 +56,7 @@ def served(answer: bytes | None) -> Iterator[str]:
         (b"", "as a server of XML-RPC does|closed the connection"),
         (b"HTTP/1.1 500 Oh\r\nContent-Length: 0\r\n\r\n", "status 500"),
         (b"\x20\x00\x00\x00error=wrong port\r\n\r\n", "not answer hello as a server of XML-RPC does"),
-        (b"HTTP/1.1 200 OK\r\nContent-Length: 3\r\n\r\nabc", "no XML-RPC"),
+        (b"HTTP/1.1 200 OK\r\nContent-Length: 3\r\n\r\nabc", "not XML-RPC"),
         (b"HTTP/1.1 200 OK\r\nContent-Length: 99999999999\r\n\r\n", "too long"),
         (b"HTTP/1.1 200 OK\r\nContent-Length: 50\r\n\r\nabc", "as a server of XML-RPC does"),
     ],
@@ -82,7 +82,7 @@ def test_an_answer_of_http_1_0_without_a_length_is_read_to_its_end(client: XmlRp
 @pytest.mark.parametrize(
     ("uri", "says"),
     [
-        ("http://localhost:{port}/", "nobody can be reached at localhost:{port}: Connection refused"),
+        ("http://localhost:{port}/", "nothing can be reached at localhost:{port}: Connection refused"),
         ("http://no-such-host.invalid:1/", "does not resolve.*ROS_HOSTNAME"),
         ("localhost:11311", "should read http://host:port/"),
         ("http://localhost:port/", "should read http://host:port/"),

@@ -167,7 +167,7 @@ def test_names_are_taken_once_and_places_too():
     engine.add("burger", BURGER, (0.0, 0.0, 0.0))
     box = Obstacle("box", Box(0.2, 0.2), (1.0, 0.0, 0.0), mass=0.5)
     engine.insert(box)
-    with pytest.raises(WorldError, match=r"'second' cannot be put to .* the obstacle 'box' is in its way"):
+    with pytest.raises(WorldError, match=r"'second' cannot be moved to .* the obstacle 'box' is in its way"):
         engine.insert(Obstacle("second", Box(0.2, 0.2), (1.05, 0.0, 0.0)))
     with pytest.raises(Exception, match="there is an obstacle 'box' in the world 'pen' already"):
         engine.insert(box)

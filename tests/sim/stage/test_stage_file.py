@@ -394,7 +394,7 @@ def test_bounds_and_odometry(world):
         ("modle( )", "there is no model 'modle' in Stage, and none is defined before it is used; did you mean model?"),
         (robot("samples 1000000000"), "samples is 1000000000; a ranger has 100000"),
         ('model( bitmap "nothing.png" )', 'there is no bitmap "nothing.png" in'),
-        ('model( bitmap "text.png" )', "cannot be read: this is no image"),
+        ('model( bitmap "text.png" )', "cannot be read: this is not an image"),
         ("interval_sim 0", "interval_sim is 0; it must be more than 0"),
         ("interval_sim []", "there is none in its brackets"),
     ],

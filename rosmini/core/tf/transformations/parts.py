@@ -57,7 +57,7 @@ def decompose_matrix(matrix: ArrayLike) -> tuple[Floats, list[float], list[float
     affine = whole.copy()
     affine[3, :] = 0, 0, 0, 1
     if abs(determinant(affine[:3, :3])) < EPS:
-        raise ValueError("matrix is singular: it cannot be taken apart")
+        raise ValueError("matrix is singular: it cannot be decomposed")
     perspective = matrix_product(whole[3, :], inverse_matrix(affine))
     rotation, upper = _orthogonal(affine[:3, :3])
     if determinant(rotation) < 0:

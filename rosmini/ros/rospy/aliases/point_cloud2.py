@@ -33,7 +33,7 @@ def read_points(
 
     """
     if getattr(cloud, "_type", None) != "sensor_msgs/PointCloud2":
-        raise MessageException(f"a {getattr(cloud, '_type', type(cloud).__name__)} is no sensor_msgs/PointCloud2")
+        raise MessageException(f"a {getattr(cloud, '_type', type(cloud).__name__)} is not a sensor_msgs/PointCloud2")
     point = _layout(cloud.fields, field_names, big=cloud.is_bigendian)
     return _points(cloud, point, skip_nans, list(uvs))
 

@@ -186,7 +186,7 @@ class _Reader:
         accessor = source.find("technique_common/accessor")
         stride = 3 if accessor is None else int(accessor.number("stride", 3))
         if stride < 3 or len(values) % stride:
-            raise array.error(f"{len(values)} numbers are no rows of {stride}")
+            raise array.error(f"{len(values)} numbers are not rows of {stride}")
         rows: Floats = values.reshape(-1, stride)[:, :3]
         return rows
 
@@ -207,7 +207,7 @@ def _indices(piece: Element, stride: int) -> tuple[NDArray[np.int64], list[int]]
         except (ValueError, OverflowError):
             raise each.error("<p> holds whole numbers") from None
         if len(values) % stride:
-            raise each.error(f"<p> holds {len(values)} numbers, which are no rows of {stride}")
+            raise each.error(f"<p> holds {len(values)} numbers, which are not rows of {stride}")
         lists.append(values.reshape(-1, stride))
     if not lists:
         return np.empty((0, stride), dtype=np.int64), []

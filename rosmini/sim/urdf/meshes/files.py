@@ -97,7 +97,7 @@ def _text_stl(data: bytes, file: Path) -> Floats:
         words = line.split()
         corners += [_three(words[i + 1 : i + 4], file, number) for i, word in enumerate(words) if word == "vertex"]
     if len(corners) % 3:
-        raise MeshError(f"{len(corners)} corners are no triangles", file)
+        raise MeshError(f"{len(corners)} corners are not triangles", file)
     return _finite(np.array(corners).reshape(-1, 3, 3), file)
 
 

@@ -22,7 +22,7 @@ def test_data_of_any_kind(kind):
 
 
 def test_what_is_no_cloud():
-    with pytest.raises(MessageException, match="std_msgs/String is no sensor_msgs/PointCloud2"):
+    with pytest.raises(MessageException, match="std_msgs/String is not a sensor_msgs/PointCloud2"):
         pc2.read_points(String())
 
 

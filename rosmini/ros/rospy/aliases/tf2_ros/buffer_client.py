@@ -26,7 +26,7 @@ class BufferClient(BufferInterface):
     def __init__(self, ns: str, check_frequency: Any = None, timeout_padding: Duration | None = None) -> None:
         super().__init__()
         if check_frequency is not None:
-            require_node("tf2_ros.BufferClient").logwarn("check_frequency is out of use: the server checks")
+            require_node("tf2_ros.BufferClient").logwarn("check_frequency is not used: the server checks")
         self.client = SimpleActionClient(ns, message_class("tf2_msgs/LookupTransformAction"))
         self.timeout_padding = Duration(2) if timeout_padding is None else timeout_padding
 
@@ -85,7 +85,7 @@ class BufferClient(BufferInterface):
         if not client.wait_for_result(goal.timeout + self.timeout_padding):
             raise TimeoutException(f"the buffer server at {server} has not answered in time: does it run?")
         if client.get_state() != Status.SUCCEEDED:
-            raise TimeoutException(f"the buffer server at {server} gave the lookup up: {client.get_goal_status_text()}")
+            raise TimeoutException(f"the buffer server at {server} gave up the lookup: {client.get_goal_status_text()}")
         result = client.get_result()
         if result.error.error:
             raise ERRORS.get(result.error.error, TransformException)(result.error.error_string)
