@@ -151,7 +151,7 @@ class Recorder:
         if self._things is not None:
             self._things.clear()
         if self._layers is not None:
-            self._layers.kept.clear()
+            self._layers.clear()
 
     def stop(self) -> None:
         """Shut down the node and keep the recorded data; harmless when repeated."""
@@ -301,30 +301,41 @@ class _Run:
 
 
 class _Layers:
-    """Messages from all topics that are visible from above, unchanged."""
+    """Messages from all topics that are visible from above, unchanged; of images only as many as a player shows."""
 
     def __init__(self, recorder: Recorder, things: str | None) -> None:
         self._node = recorder.node
-        self._types: frozenset[str] = find_extension(RECORDED, "layers")()
+        self._intervals: dict[str, float] = find_extension(RECORDED, "layers")()
         self._left_out = {self._node.resolve(things)} if things else set()
         self.topics: set[str] = set()
-        self.kept: list[tuple[int, str, Any]] = []
+        self._kept: list[tuple[int, str, Any]] = []
+        self._due: dict[str, int] = {}
+        """When the next message of a topic is kept [ns]."""
         self._subscribe_new()
         self._node.timer(CHECK_PERIOD, lambda _event: self._subscribe_new())
 
     def _subscribe_new(self) -> None:
         """Subscribe to new topics."""
         for topic, kind in sorted(self._node.master.ask("getTopicTypes")):
-            if kind in self._types and topic not in self.topics | self._left_out:
+            if kind in self._intervals and topic not in self.topics | self._left_out:
                 self.topics.add(topic)
-                self._node.subscriber(topic, message_class(kind), self._keep, arguments=(topic,))
+                interval = round(1e9 * self._intervals[kind])
+                self._node.subscriber(topic, message_class(kind), self._keep, arguments=(topic, interval))
 
-    def _keep(self, message: Any, topic: str) -> None:
-        self.kept.append((self._node.clock.now_ns(), topic, message))
+    def _keep(self, message: Any, topic: str, interval: int) -> None:
+        now = self._node.clock.now_ns()
+        if now >= self._due.get(topic, now):
+            self._due[topic] = now + interval
+            self._kept.append((now, topic, message))
+
+    def clear(self) -> None:
+        """Discard the messages."""
+        self._kept.clear()
+        self._due.clear()
 
     def messages(self, begin: int) -> tuple[tuple[float, str, Any], ...]:
         """Return the messages; those from before `begin` [ns], such as a latched map, get the time of `begin`."""
-        return tuple((max(0.0, (time - begin) / 1e9), topic, message) for time, topic, message in self.kept)
+        return tuple((max(0.0, (time - begin) / 1e9), topic, message) for time, topic, message in self._kept)
 
 
 class _MovingObstacles:

@@ -409,6 +409,10 @@ def moved_to(body: Body, start: Pose) -> Body:
     return Body(body.name, body.times, np.asarray(poses), colour=body.colour)
 
 
-def recorded_types() -> frozenset[str]:
-    """Return the types that a recorder records with `layers=True`: everything visible from above, and transforms."""
-    return frozenset({*(name for name, cls in COLLECTORS.items() if not cls.of_robot), UPDATE, TRANSFORMS[0]})
+def recorded_types() -> dict[str, float]:
+    """Return the types that a recorder records with `layers=True`: everything visible from above, and transforms.
+
+    Each has the shortest interval [s] between two messages that are kept: 0, but for images, which are large.
+    """
+    shown = {name: 0.0 for name, cls in COLLECTORS.items() if not cls.of_robot}
+    return shown | {UPDATE: 0.0, TRANSFORMS[0]: 0.0} | dict.fromkeys(ImageCollector.types, 0.9 * ImageCollector.period)

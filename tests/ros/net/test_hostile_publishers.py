@@ -232,7 +232,9 @@ def test_a_publisher_whose_slave_api_hangs_is_told(
         until(graph, lambda: len(delays) == 10, "ten attempts")
         graph.ask_as("/raw").ask("unregisterPublisher", TOPIC, uri)
         graph.nodes["/victim"].shutdown()
-    assert capsys.readouterr().err.count("does not answer requestTopic") == 1
+    # On a busy machine a sound one may take longer than that, too.
+    told = [line for line in capsys.readouterr().err.splitlines() if "does not answer requestTopic" in line]
+    assert len([line for line in told if uri in line]) == 1, told
 
 
 def test_a_flood_of_empty_messages_waits_outside(graph: Graph) -> None:

@@ -333,6 +333,19 @@ def test_a_recorder_with_layers_keeps_what_can_be_seen_and_a_window_what_is_in_f
     assert "layers" not in plain.data
 
 
+def test_of_the_images_of_a_camera_a_recorder_keeps_one_a_second():
+    """30 a second, of 1920 x 1080 pixels, filled four gigabytes in the eight seconds that a chapter records."""
+    graph = Graph()
+    recorder = Recorder(graph, Simulator(graph.node("simulator")), layers=True)
+    camera = graph.node("camera")
+    images = camera.publisher("/camera/image", message_class("sensor_msgs/Image"), latch=True)
+    image = made("sensor_msgs/Image", "camera", width=2, height=1, encoding="rgb8", step=6, data=bytes(6))
+    camera.timer(1 / 30, lambda _event: images.publish(image))
+    graph.run(4.0)
+    kept = [time for time, topic, _ in recorder.recording().messages if topic == "/camera/image"]
+    assert 4 <= len(kept) <= 5
+
+
 def test_a_topic_without_a_message_in_this_run_is_no_error_but_an_unknown_one_is():
     """A cell with a replay that is run again, when the robot is already at its goal, records no plan."""
     graph = Graph()
