@@ -25,7 +25,7 @@ def test_the_watchdog_and_the_bounds_are_those_of_the_text(prose, tmp_path):
 
     assert WATCHDOG == 0.2
     assert "all robots stop | 0.2 s |" in prose
-    assert "limits of the speed | 1 m/s and 90 degrees/s |" in prose
+    assert "speed limits | 1 m/s and 90 degrees/s |" in prose
     (tmp_path / "plain.world").write_text("position( )", encoding="utf-8")
     (robot,) = load(tmp_path / "plain.world").robots
     ahead, _, turning = robot.velocity_bounds

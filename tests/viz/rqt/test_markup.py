@@ -44,4 +44,4 @@ def test_a_page_without_a_kernel_is_disabled_and_says_so():
     assert all("disabled" in control for control in still.of("input"))
     assert not any("disabled" in control for control in live.of("input"))
     assert "In a live notebook" in page("Title", ALL, live=False)
-    assert still.of("section")[0]["aria-label"] == "Title"
+    assert still.of("div")[0]["aria-label"] == "Title"
