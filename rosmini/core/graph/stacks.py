@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import sys
 import threading
-from typing import TYPE_CHECKING, TypeVar
-
-if TYPE_CHECKING:
-    pass
+from typing import TypeVar
 
 __all__ = ["HAS_THREADS", "GreenletExit", "getcurrent", "greenlet", "held_lock", "yielding"]
 
