@@ -1,4 +1,4 @@
-"""Advice on a magic or a module of ROS that a cell does not find: load rosmini first, or correct the name.
+"""Advice on a name, magic or module that a cell does not find: which cell to run first, or the correct name.
 
 It is a separate IPython extension, because the need to load occurs before ``%load_ext rosmini``: ``rosmini lab`` starts
 its kernels with it. ``%load_ext rosmini`` registers it as well.
@@ -14,16 +14,18 @@ _UNKNOWN = re.compile(r"`(%%?\w+)`")
 """How IPython's error names the magic."""
 _NOT_WRITTEN = re.compile(r"package [\[']notebook\b|(No module named|cannot import name \S+ from) 'notebook\b")
 """How errors say that the package of the notebook lacks a script, a launch file or a message."""
+_IMPORTED = ("check", "np", "plt", "rosmini", "rospy")
+"""Names that chapters import near the top."""
 LOAD = "comes with rosmini: run `%load_ext rosmini` in a cell first"
 
 
 def load_ipython_extension(shell: Any) -> None:
-    """Give advice after each cell of a shell that fails with an unknown magic or module; harmless when repeated."""
+    """Give advice after each cell that fails with an unknown name, magic or module; harmless when repeated."""
     shell.events.register("post_run_cell", advise)
 
 
 def advise(result: Any) -> None:
-    """Print advice on the unknown magic or module in a failed cell, if rosmini has a similar one."""
+    """Print advice on the unknown name, magic or module in a failed cell, if there is any."""
     error, advice = result.error_in_exec, ""
     if type(error).__name__ == "UsageError":
         from IPython.core.getipython import get_ipython
@@ -33,6 +35,8 @@ def advise(result: Any) -> None:
         advice = "cells with %%node, %%launch, %%msg, %%srv or %%action write the package notebook: run them first"
     elif isinstance(error, ModuleNotFoundError) and error.name:
         advice = advice_on_module(error.name)
+    elif type(error) is NameError and error.name:
+        advice = advice_on_name(error.name)
     if advice:
         print(f"rosmini: {advice}", file=sys.stderr)
 
@@ -68,3 +72,10 @@ def advice_on_module(name: str) -> str:
     if installed() or (package not in homes() and package not in PackageIndex()):
         return ""
     return f"the module {package} {LOAD}"
+
+
+def advice_on_name(name: str) -> str:
+    """Return advice on a variable that no cell has defined yet."""
+    if name in _IMPORTED:
+        return f"the cell near the top of the chapter that imports `{name}` has not run: run it first"
+    return f"if a cell above defines `{name}`, run that cell first"

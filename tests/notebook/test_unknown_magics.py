@@ -51,6 +51,23 @@ def test_what_an_earlier_cell_writes_is_asked_for(notebook, cell):
     assert "run them first" in notebook.fails(cell)
 
 
+@pytest.mark.parametrize(
+    ("cell", "hint"),
+    [
+        ("check('stop')", "the cell near the top of the chapter that imports `check` has not run: run it first"),
+        ("rosmini.wait(1)", "that imports `rosmini` has not run"),
+        ("print(total)", "if a cell above defines `total`, run that cell first"),
+    ],
+)
+def test_a_cell_that_runs_too_early_says_which_cell_to_run(bare, cell, hint):
+    assert hint in bare.fails(cell)
+
+
+def test_other_name_errors_are_left_alone(notebook):
+    assert "run" not in notebook.fails("def f():\n    print(x)\n    x = 1\nf()")
+    assert "above" not in notebook.fails("raise NameError('no parameter a')")
+
+
 def test_reloading_says_which_nodes_end(notebook):
     assert notebook.ok("%reload_ext rosmini") == ""
     notebook.ok("%%node talker.py\nimport rospy\nrospy.init_node('talker')\nrospy.spin()")
