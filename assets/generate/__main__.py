@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from . import rviz_files, worlds
-from .drawings import DRAWINGS
+from .drawings import CHAPTERS, PAGES
 from .meshes import turtlebot3
 
 CHECKOUT = Path(__file__).resolve().parents[2]
@@ -17,8 +17,8 @@ def texts() -> dict[str, str]:
     made |= {f"assets/ros/{path}": text for path, text in rviz_files.texts().items()}
     for name, text in turtlebot3.files().items():
         made[f"assets/ros/turtlebot3_description/meshes/{name}"] = text
-    for name, drawing in DRAWINGS.items():
-        made[f"book/static/drawings/{name}.svg"] = drawing + "\n"
+    for folder, drawings in (("book/static", PAGES), ("rosmini/book", CHAPTERS)):
+        made |= {f"{folder}/drawings/{name}.svg": drawing + "\n" for name, drawing in drawings.items()}
     return made
 
 

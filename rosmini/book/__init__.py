@@ -1,5 +1,6 @@
-"""The checks of the chapters' exercises."""
+"""What the chapters of the book use beside ROS: the checks of their exercises, and drawings."""
 
 from rosmini.book.checks import check
+from rosmini.book.drawings import drawing
 
-__all__ = ["check"]
+__all__ = ["check", "drawing"]

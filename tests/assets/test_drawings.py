@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from assets.generate.drawings import DRAWINGS, facts, layers, parts, people, timeline
+from assets.generate.drawings import CHAPTERS, PAGES, facts, layers, parts, people, timeline
 
 ROOT = Path(__file__).resolve().parents[2]
 SHEETS = {
@@ -20,6 +20,9 @@ SHEETS = {
     "layers": layers.layers_sheet,
     "parts": parts.parts_sheet,
 }
+
+
+DRAWINGS = {**PAGES, **CHAPTERS}
 
 
 @pytest.mark.parametrize("name", DRAWINGS)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from rosmini.viz import style
 from rosmini.viz.graph_drawing import text
 from rosmini.viz.layout import Layout, Rect
-from rosmini.viz.pattern_drawing import diagram, named_box, straight
 from rosmini.viz.svg import element
-from rosmini.viz.view import Picture
+
+from .concepts import diagram, named_box, straight
 
 DISTRIBUTION = ("turtlebot3", "slam_gmapping", "hector_slam", "navigation", "geometry2", "common_msgs", "ros_comm")
 """Some stacks of ROS Noetic; most of them need some of those that come later."""
@@ -43,7 +43,7 @@ WIDTH, GAP, HEAD, ROW = 196.0, 44.0, 32.0, 20.0
 STACK, PACKAGE = "navigation", "map_server"
 
 
-def stacks_and_packages() -> Picture:
+def stacks_and_packages() -> str:
     """Draw a distribution, a stack and a package, each with its contents."""
     height = HEAD + ROW * len(NAVIGATION) + 10
     columns = [Rect(i * (WIDTH + GAP), 0.0, WIDTH, height) for i in range(3)]
@@ -71,13 +71,12 @@ def stacks_and_packages() -> Picture:
         x, y = third.x + WIDTH / 2, HEAD + i * wide + wide / 2
         parts += [_line(name, x, y - 2), _line(what, x, y + 14, is_small=True)]
     title = "A distribution, a stack and a package"
-    words = f"Noetic > {STACK} > {PACKAGE}"
     alt = (
         f"Three columns. The distribution Noetic contains stacks: {', '.join(DISTRIBUTION)}. An arrow leads to the "
         f"stack {STACK} with its {len(NAVIGATION)} packages: {', '.join(NAVIGATION)}. An arrow leads to the package "
         f"{PACKAGE} with {', '.join(f'{name} ({what})' for name, what in MAP_SERVER)}."
     )
-    return diagram(parts, Layout(third.right, height), title, words, alt)
+    return diagram(parts, Layout(third.right, height), title, alt)
 
 
 def _line(words: str, x: float, y: float, *, is_small: bool = False) -> str:

@@ -9,7 +9,6 @@ from rosmini.viz.graph_drawing import arrow, box, drawing, rule, text
 from rosmini.viz.layout import Layout, Rect, Route
 from rosmini.viz.layout.model import Point
 from rosmini.viz.svg import element
-from rosmini.viz.view import Picture
 
 SERVICE = Rect(210.0, 0.0, 190.0, 210.0)
 STORE = Rect(228.0, 142.0, 154.0, 50.0)
@@ -23,7 +22,7 @@ ALT = (
 )
 
 
-def publish_subscribe() -> Picture:
+def publish_subscribe() -> str:
     """Draw the pattern (Eugster and others, 2003)."""
     parts = [named_box(rect, "Publisher", "node") for rect in PUBLISHERS]
     parts += [named_box(rect, "Subscriber", "node") for rect in SUBSCRIBERS]
@@ -36,19 +35,17 @@ def publish_subscribe() -> Picture:
         parts.append(_call(rect.x, SERVICE.right, y + 13, "subscribe()", below=True))
     title = "The publish/subscribe pattern"
     layout = Layout(SUBSCRIBERS[0].right, SERVICE.height)
-    words = "publish() to an event service, subscribe() to it, notify() from it"
-    return diagram(parts, layout, title, words, ALT)
+    return diagram(parts, layout, title, ALT)
 
 
-def diagram(parts: Iterable[str], layout: Layout, title: str, words: str, alt: str) -> Picture:
-    """Return the drawing of boxes and arrows; `words` is its text form after the title."""
+def diagram(parts: Iterable[str], layout: Layout, title: str, alt: str) -> str:
+    """Return the drawing of boxes and arrows."""
     css = "".join(
         rule(f".ps-{kind} rect", fill=f"{kind}-fill", stroke=f"{kind}-line") for kind in ("node", "topic", "group")
     )
     css += rule(".ps-call path:first-of-type", stroke="line") + rule(".ps-call path:last-of-type", fill="line")
     css += rule(".ps-call text", fill="label") + rule(".ps-name", fill="ink")
-    svg = drawing(parts, layout, title=title, alt=alt, css=css, colours=COLOURS)
-    return Picture(svg, text=f"{title}: {words}", alt=alt)
+    return drawing(parts, layout, title=title, alt=alt, css=css, colours=COLOURS)
 
 
 def named_box(rect: Rect, words: str, kind: str, down: float | None = None) -> str:

@@ -9,7 +9,6 @@ from rosmini.viz.graph_drawing import MARGIN, rule, text
 from rosmini.viz.metrics import text_width
 from rosmini.viz.style import LABEL_SIZE, LIGHT
 from rosmini.viz.svg import document, element, number
-from rosmini.viz.view import Picture
 
 WIDTH, HEIGHT = 660.0, 300.0
 PLANE = 232.0
@@ -36,7 +35,7 @@ COLOURS = {
 }
 
 
-def frames_on_rough_ground() -> Picture:
+def frames_on_rough_ground() -> str:
     """Draw the frames of a robot that climbs a slope."""
     parts = [_ground(), _plane(), _robot()]
     scan = _tilted(BASE, (0.0, 62.0))
@@ -57,11 +56,10 @@ def frames_on_rough_ground() -> Picture:
     css += ".rosmini-svg .fr-word{font-weight:600}"
     body = element("g", "".join(parts), transform=f"translate({number(MARGIN)},{number(MARGIN)})")
     title = "Frames of a robot on uneven ground"
-    svg = document(
+    return document(
         body, width=WIDTH + 2 * MARGIN, height=HEIGHT + 2 * MARGIN, title=title, alt=ALT, css=css,
         colours=[*COLOURS.values(), "node-fill", "group-fill"],
     )  # fmt: skip
-    return Picture(svg, text=f"{title}: map, odom, base_footprint, base_stabilized, base_link, base_scan", alt=ALT)
 
 
 def _tilted(origin: tuple[float, float], offset: tuple[float, float]) -> tuple[float, float]:

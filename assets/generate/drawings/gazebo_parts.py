@@ -6,9 +6,9 @@ from rosmini.viz import style
 from rosmini.viz.graph_drawing import arrow
 from rosmini.viz.layout import Edge, Layout, Rect, Vertex, layered
 from rosmini.viz.metrics import text_width
-from rosmini.viz.pattern_drawing import diagram, named_box, straight
 from rosmini.viz.svg import element
-from rosmini.viz.view import Picture
+
+from .concepts import diagram, named_box, straight
 
 HERE, THERE = Rect(0.0, 0.0, 260.0, 330.0), Rect(440.0, 0.0, 190.0, 154.0)
 MASTER, SERVER, PLUGIN, ROS_MASTER = (
@@ -40,7 +40,7 @@ EXTERNAL = ("Qt", "ODE, Bullet, Simbody, DART", "OGRE", "Protobuf", "Boost ASIO"
 """Those of them that are separate projects."""
 
 
-def gazebo_processes() -> Picture:
+def gazebo_processes() -> str:
     """Draw Gazebo's server and client on two computers, with ROS nodes and both Masters."""
     parts = [
         named_box(HERE, "simulation computer", "group", 22.0),
@@ -60,11 +60,10 @@ def gazebo_processes() -> Picture:
         straight((130.0, PLUGIN.bottom), (130.0, ROS_MASTER.y), "registers", (140.0, 254.0), "start"),
         straight((NODES.x, 236.0), (ROS_MASTER.right, 290.0), "registers", (362.0, 276.0), "start"),
     ]
-    words = "gzserver and gzclient with Gazebo's Master; gazebo_ros and nodes with the ROS Master"
-    return diagram(parts, Layout(THERE.right, HERE.bottom), "The processes of Gazebo and ROS", words, PROCESSES_ALT)
+    return diagram(parts, Layout(THERE.right, HERE.bottom), "The processes of Gazebo and ROS", PROCESSES_ALT)
 
 
-def gazebo_libraries() -> Picture:
+def gazebo_libraries() -> str:
     """Draw which libraries Gazebo's programs use, its own and those of others."""
     names = dict.fromkeys([*NEEDS, *(each for needs in NEEDS.values() for each in needs)])
     vertices = [Vertex(each, text_width(each, style.TEXT_SIZE) + 26, 34.0, "box") for each in names]
@@ -76,4 +75,4 @@ def gazebo_libraries() -> Picture:
         parts.append(named_box(layout.vertices[each], each, kind))
     lines = [f"{each} uses {', '.join(needs)}" for each, needs in NEEDS.items()]
     alt = f"Graph: {'; '.join(lines)}."
-    return diagram(parts, layout, "The libraries of Gazebo", "; ".join(lines), alt)
+    return diagram(parts, layout, "The libraries of Gazebo", alt)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from rosmini.viz import style
 from rosmini.viz.graph_drawing import box, text
 from rosmini.viz.layout import Layout, Rect
-from rosmini.viz.pattern_drawing import diagram
 from rosmini.viz.svg import element
-from rosmini.viz.view import Picture
+
+from .concepts import diagram
 
 WIDTH, HEIGHT = 620.0, 380.0
 MENU, TOOLS = Rect(0.0, 0.0, WIDTH, 28.0), Rect(0.0, 28.0, WIDTH, 34.0)
@@ -34,7 +34,7 @@ NUMBERS = ((190.0, 82.0), (16.0, 78.0), (16.0, 14.0), (16.0, 45.0), (496.0, 78.0
 """The places of the numbers, in order."""
 
 
-def rviz_window() -> Picture:
+def rviz_window() -> str:
     """Draw the window of RViz with its six parts."""
     parts = [element("g", box(each, "group", 0.0), class_="ps-group") for each in (MENU, TOOLS, DISPLAYS, VIEWS, TIME)]
     parts += [_scene()]
@@ -45,8 +45,7 @@ def rviz_window() -> Picture:
     parts += [_line("Displays", 34.0, 82.0), _line("Views", 514.0, 82.0)]
     parts += [_line(TIMES, 34.0, 364.0)]
     parts += [_number(i, *place) for i, place in enumerate(NUMBERS, 1)]
-    names = "3D view, Displays, menu, tools, Views, Time"
-    return diagram(parts, Layout(WIDTH, HEIGHT), "The window of RViz", names, ALT)
+    return diagram(parts, Layout(WIDTH, HEIGHT), "The window of RViz", ALT)
 
 
 def _line(words: str, x: float, y: float) -> str:
