@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from rosmini.core.geometry.angles import yaw_from_quaternion
 from rosmini.core.geometry.poses import Pose, compose, inverse
-from rosmini.core.graph import Graph, running_graph
+from rosmini.core.graph import Graph, Subscriber, running_graph
 from rosmini.core.graph.show import find_extension
 from rosmini.msgs import message_class
 
@@ -309,24 +309,33 @@ class _Layers:
         self._left_out = {self._node.resolve(things)} if things else set()
         self.topics: set[str] = set()
         self._kept: list[tuple[int, str, Any]] = []
+        self._subscribers: dict[str, Subscriber] = {}
         self._due: dict[str, int] = {}
-        """When the next message of a topic is kept [ns]."""
-        self._subscribe_new()
-        self._node.timer(CHECK_PERIOD, lambda _event: self._subscribe_new())
+        """When the recorder wants the next message of a topic [ns]."""
+        self._subscribe()
+        self._node.timer(CHECK_PERIOD, lambda _event: self._subscribe())
 
-    def _subscribe_new(self) -> None:
-        """Subscribe to new topics."""
-        for topic, kind in sorted(self._node.master.ask("getTopicTypes")):
-            if kind in self._intervals and topic not in self.topics | self._left_out:
-                self.topics.add(topic)
-                interval = round(1e9 * self._intervals[kind])
-                self._node.subscriber(topic, message_class(kind), self._keep, arguments=(topic, interval))
-
-    def _keep(self, message: Any, topic: str, interval: int) -> None:
+    def _subscribe(self) -> None:
+        """Subscribe to new topics, and to those whose next message is wanted."""
         now = self._node.clock.now_ns()
-        if now >= self._due.get(topic, now):
-            self._due[topic] = now + interval
-            self._kept.append((now, topic, message))
+        for topic, kind in sorted(self._node.master.ask("getTopicTypes")):
+            is_waiting = topic in self._subscribers or self._due.get(topic, now) > now
+            if kind in self._intervals and not is_waiting and topic not in self._left_out:
+                self.topics.add(topic)
+                self._subscribers[topic] = self._node.subscriber(
+                    topic, message_class(kind), self._keep, arguments=(topic, self._intervals[kind])
+                )
+
+    def _keep(self, message: Any, topic: str, interval: float) -> None:
+        """Keep a message. Until the next one is wanted, unsubscribe: a camera renders for its subscribers."""
+        now = self._node.clock.now_ns()
+        if now < self._due.get(topic, now):
+            return
+        self._kept.append((now, topic, message))
+        if interval:
+            self._due[topic] = now + round(1e9 * interval)
+            self._subscribers.pop(topic).unregister()
+            self._node.timer(interval, lambda _event: self._subscribe(), oneshot=True)
 
     def clear(self) -> None:
         """Discard the messages."""

@@ -80,6 +80,8 @@ class CameraDevice(Device):
         self._fixed: tuple[World, Scene] | None = None
         self._moving: tuple[Scene, list[Part], Scene] | None = None
         self._last: tuple[tuple[Pose, Scene], Light, Depths] | None = None
+        self._rendered = -2
+        """Number of the last image that was rendered."""
         self._warned = False
         frame = frame or camera.frame
         node = host.node
@@ -112,7 +114,9 @@ class CameraDevice(Device):
                 info.publish(stamp)
         if not (has_subscriber(self._image) or has_subscriber(self._depth) or has_subscriber(self._points)):
             return
-        self.warn()
+        if number == self._rendered + 1:  # a recorder wants single images
+            self.warn()
+        self._rendered = number
         image, depths = self.look(number)
         if self._points is not None and self._points.num_connections():
             self._points.publish(stamp, [cloud(self.camera, image, depths).tobytes()])
