@@ -326,13 +326,18 @@ class Prompt:
 
 @dataclass(frozen=True, kw_only=True)
 class Shown(Result):
-    """A view, and the page that it was saved to (None if it was not saved)."""
+    """A view, the page that it was saved to (None if it was not saved), and whether that is a temporary page.
+
+    The text has the address of a temporary page, which a terminal makes a link.
+    """
 
     view: Any
     path: Path | None = None
+    is_temporary: bool = False
 
     def __str__(self) -> str:
-        return self.view.text if self.path is None else f"{self.view.text}\n\n{self.path}"
+        place = self.path.as_uri() if self.path and self.is_temporary else self.path
+        return self.view.text if place is None else f"{self.view.text}\n\n{place}"
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Any:
         return self.view._repr_mimebundle_(include, exclude)
@@ -351,4 +356,4 @@ def shown(view: Any, name: str, given: Values, call: Call) -> Shown:
 
     path = view.save(Path(tempfile.mkdtemp(prefix="rosmini_")) / f"{name}.html")
     webbrowser.open(path.as_uri())
-    return Shown(view=view, path=path)
+    return Shown(view=view, path=path, is_temporary=True)

@@ -164,6 +164,7 @@ def test_a_terminal_writes_a_page_and_opens_it(tmp_path, monkeypatch, capsys):
     assert isinstance(result, Shown)
     assert result.path is not None
     assert opened == [result.path.as_uri()]
+    assert str(result).endswith(f"\n{opened[0]}")
     assert "std_msgs/String" in result.path.read_text(encoding="utf-8")
     assert result.path.is_relative_to(tmp_path)
     assert capsys.readouterr().out == ""
