@@ -271,7 +271,7 @@ def expect_fields(found: type[Message], wanted: type[Message], what: str) -> Non
     for kind, name in right:
         kinds = [other for other, field in given if field == name]
         expect(kinds, f"There is no field {name} in the {what}.", "a field is 'type name'")
-        expect(kinds == [kind], f"The field {name} of the {what} is a {kinds[0]}, not a {kind}.")
+        expect(kinds == [kind], f"The field {name} of the {what} has the type {kinds[0]}, not {kind}.")
     extra = [name for _, name in given if name not in [field for _, field in right]]
     expect(not extra, f"The {what} has a field that the task does not mention: {', '.join(extra)}.")
     expect(given == right, f"The fields of the {what} are in the wrong order.")

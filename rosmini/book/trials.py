@@ -34,7 +34,8 @@ class Trial:
         parameters: of the simulator, as for rosrun: ``"_x:=1.0"``.
         is_shown: whether a wrong answer is shown with a picture of the drive; False if no robot drives.
 
-    A `Wrong` that leaves the block gets the picture of the drive so far and the first error that a script logged.
+    A `Wrong` that leaves the block gets the picture of the drive so far, and the first error that a script logged, or
+    the warning about a loop that never sleeps.
 
     """
 
@@ -62,12 +63,12 @@ class Trial:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """Shut the graph down, and add picture and logged error to a `Wrong`."""
+        """Shut the graph down, and add the picture, and a logged error or endless loop, to a `Wrong`."""
         try:
             if isinstance(error, Wrong):
                 if self._is_shown:
                     error.view = self.view()
-                if (said := self._first_error()) and said not in str(error):
+                if (said := self._first_error() or self._endless_loop()) and said not in str(error):
                     error.args = (f"{error} Your script logged: {said}",)
         finally:
             self.graph.shutdown()
@@ -117,6 +118,11 @@ class Trial:
             return ""
         text, line = error.groups()
         return f"{text} ({line})" if line else text
+
+    def _endless_loop(self) -> str:
+        """Return the warning about a loop that never sleeps, without its time and advice."""
+        found = re.search(r"^\[WARN\].*?\]: <(.*)>(, line \d+: this loop never sleeps\.)", self.output, re.MULTILINE)
+        return "".join(found.groups()) if found else ""
 
 
 class StageTrial(Trial):

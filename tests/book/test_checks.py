@@ -73,6 +73,11 @@ def test_a_stub_is_not_attempted(stub):
     assert (verdict.status, verdict.text) == (Status.NOT_ATTEMPTED, "Exercise wheels: not attempted yet.")
 
 
+@pytest.mark.parametrize("name", ["lane_order", "fast_commands", "polygon"])
+def test_an_answer_of_another_type_is_named_with_the_right_article(name):
+    assert "is an int, not a string." in checks.find(name).grade(3).text
+
+
 gaps = Exercise("gaps", "Good.", lambda _: None, gaps=2)
 
 

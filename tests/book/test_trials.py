@@ -86,6 +86,14 @@ def test_what_is_wrong_comes_with_the_picture_and_the_first_error():
     assert error.value.hint == "drive"
 
 
+def test_what_is_wrong_with_a_script_that_never_sleeps_says_so():
+    said = r"stood still\. Your script logged: busy\.py, line 3: this loop never sleeps\.$"
+    with pytest.raises(Wrong, match=said), Trial("empty") as trial:
+        trial.start(Script("busy.py", "import rospy\nrospy.init_node('busy')\nwhile True:\n    pass"))
+        trial.run(4.0)
+        raise Wrong("It stood still.")
+
+
 def test_where_the_robot_has_no_part_no_picture_is_shown():
     with pytest.raises(Wrong) as error, Trial("empty", is_shown=False) as trial:
         trial.run(1.0)

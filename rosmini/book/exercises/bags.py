@@ -8,7 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from rosmini.book.checks import Script, exercise, expect
+from rosmini.book.checks import Script, exercise, expect, expect_type
 from rosmini.book.trials import Trial
 from rosmini.core.time import Time
 from rosmini.msgs.geometry_msgs.msg import Twist, Vector3
@@ -71,7 +71,7 @@ def _printed(answer: Script, *args: str) -> float:
 @exercise("fast_commands", praise="`and` evaluates the right side only for the topic that has this field.")
 def fast_commands(answer: Any) -> None:
     """An expression that keeps commands to drive forwards faster than 0.1 m/s."""
-    expect(isinstance(answer, str), f"The expression must be a string, not a {type(answer).__name__}.")
+    expect_type(answer, str, "The expression is", "a string")
     cases = [
         ("/cmd_vel", Twist(linear=Vector3(x=0.2)), True, "a command of 0.2 m/s"),
         ("/cmd_vel", Twist(linear=Vector3(x=0.05)), False, "a command of 0.05 m/s"),

@@ -23,9 +23,7 @@ def data_of(answer: Any) -> None:
     visits = np.array([[0, 1, 4, 7], [2, 0, 10, 10]])
     for threshold, wanted in ((0.25, [-1, 100, 0, 0, 0, -1, 100, 100]), (0.4, [-1, 100, 0, 0, 0, -1, 0, 100])):
         found = answer(hits.copy(), visits.copy(), threshold)
-        expect(
-            isinstance(found, list), f"It returned a {type(found).__name__}, not a list.", "use array.ravel().tolist()"
-        )
+        expect_type(found, list, "It returned", "a list", "use array.ravel().tolist()")
         expect(
             len(found) == len(wanted),
             f"The list has {len(found)} entries for {hits.size} cells.",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import count
 from typing import TYPE_CHECKING, Any
 
-from rosmini.book.checks import exercise, expect
+from rosmini.book.checks import exercise, expect, expect_type
 from rosmini.core.graph import Graph
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def event_queue(answer: Any) -> None:
 @exercise("lane_order", praise="Two events at one time run in the order in which they were added.")
 def lane_order(answer: Any) -> None:
     """The order in which two lanes print."""
-    expect(isinstance(answer, str), f"The answer must be a string, not a {type(answer).__name__}.")
+    expect_type(answer, str, "The answer is", "a string")
     wanted = _printed()
     words = answer.replace(",", " ").split()
     expect(sorted(words) == sorted(wanted), f"The words are {', '.join(sorted(wanted))}, each of them once.")

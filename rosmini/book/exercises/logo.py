@@ -6,7 +6,7 @@ import math
 import re
 from typing import TYPE_CHECKING, Any, cast
 
-from rosmini.book.checks import Script, exercise, expect
+from rosmini.book.checks import Script, exercise, expect, expect_type
 from rosmini.book.trials import Trial
 from rosmini.core.graph import Graph
 from rosmini.msgs.std_msgs.msg import String
@@ -24,7 +24,7 @@ PLACES = ((60, 0), (60, 80), (0, 80))
 
 def _text(program: Any) -> str:
     """Return the program of an answer, without the line of the magic. Raises `Wrong` if it is not a string."""
-    expect(isinstance(program, str), f"The program must be a string, not a {type(program).__name__}.")
+    expect_type(program, str, "The program is", "a string")
     return re.sub(r"\A\s*%%logo.*", "", program)
 
 

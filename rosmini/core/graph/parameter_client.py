@@ -45,10 +45,7 @@ def check_value(name: str, value: Any) -> Any:
     if isinstance(value, dict):
         for key in value:
             if not isinstance(key, str):
-                msg = (
-                    f"parameter {name}: the key {key!r} is a {type(key).__name__}; keys of a parameter tree are strings"
-                )
-                raise ParameterTypeError(msg)
+                raise ParameterTypeError(f"parameter {name}: the key {key!r} is not a string")
         return {key: check_value(f"{name.rstrip('/')}/{key}", item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
         return [check_value(f"{name}[{index}]", item) for index, item in enumerate(value)]

@@ -111,7 +111,7 @@ def assignments(name: str, value: Any) -> Iterator[tuple[str, Any]]:
     """
     if name == "/" and not isinstance(value, dict):
         raise _Refused(
-            f"the root of the Parameter Server is a dictionary, and this is a {type(value).__name__} ({value!r}): "
+            f"the root of the Parameter Server is a dictionary, not {value!r}: "
             "write lines of the form `name: value`, or give a namespace",
             "/",
         )
@@ -124,10 +124,7 @@ def _assignments(name: str, value: Any, place: str) -> Iterator[tuple[str, Any]]
         return
     for key, item in value.items():
         if not isinstance(key, str):
-            raise _Refused(
-                f"parameter {name}: the key {key!r} is a {type(key).__name__}, and keys are strings: quote it",
-                f"{place}/{key}",
-            )
+            raise _Refused(f"parameter {name}: the key {key!r} is not a string: quote it", f"{place}/{key}")
         yield from _assignments(join(name, key), item, f"{place}/{key}")
 
 

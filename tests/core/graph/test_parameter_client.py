@@ -93,7 +93,7 @@ def test_an_expected_type_is_checked(simulated: Graph) -> None:
     [
         (None, "parameter /p: a NoneType cannot be stored"),
         ({"a": [1, {"b": object}]}, r"parameter /p/a\[1\]/b: a type cannot be stored"),
-        ({"a": {1: 2}}, "parameter /p/a: the key 1 is a int"),
+        ({"a": {1: 2}}, "parameter /p/a: the key 1 is not a string"),
         ([2**31], r"parameter /p\[0\]: 2147483648 does not fit into the 32 bits"),
         (1j, "complex"),
     ],

@@ -83,7 +83,7 @@ def test_a_wrong_file_sets_nothing(params: ParamClient, tmp_path: Path) -> None:
 def test_one_value_is_one_document(params: ParamClient) -> None:
     with pytest.raises(RosParamException, match="2 YAML documents"):
         params.set("/x", "1\n---\n2")
-    with pytest.raises(RosParamException, match="dictionary, and this is a int"):
+    with pytest.raises(RosParamException, match="is a dictionary, not "):
         params.set("/", "1")
     with pytest.raises(RosParamException, match="empty"):
         params.set("/x", "null")
