@@ -12,7 +12,6 @@ from rosmini.viz.view import Picture, View, ViewError, matplotlib_picture
 
 if TYPE_CHECKING:
     from rosmini.viz.byte_maps import byte_map
-    from rosmini.viz.galleries import grid
     from rosmini.viz.parameter_trees import parameter_tree
     from rosmini.viz.plots import plot
     from rosmini.viz.rqt.bag import rqt_bag
@@ -26,7 +25,6 @@ __all__ = [
     "ViewError",
     "action_states",
     "byte_map",
-    "grid",
     "matplotlib_picture",
     "parameter_tree",
     "plot",
@@ -39,7 +37,6 @@ _LATER = {
     "rqt_graph": "rosmini.viz.rqt.graph",
     "action_states": "rosmini.viz.state_machine",
     "byte_map": "rosmini.viz.byte_maps",
-    "grid": "rosmini.viz.galleries",
     "parameter_tree": "rosmini.viz.parameter_trees",
     "plot": "rosmini.viz.plots",
     "rqt_bag": "rosmini.viz.rqt.bag",

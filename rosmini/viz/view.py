@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import base64
 from abc import ABC, abstractmethod
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -173,6 +173,31 @@ class Picture(View):
             return None
         caption = element("figcaption", escape(self.caption)) if self.caption else ""
         return element("figure", self.svg + caption, class_="rosmini-figure", style="margin:0.5em 0;overflow-x:auto")
+
+
+class Views(View):
+    """Several views, one below the other."""
+
+    def __init__(self, views: Sequence[View]) -> None:
+        self._views = tuple(views)
+
+    @property
+    def text(self) -> str:
+        """Their texts."""
+        return "\n".join(view.text for view in self._views)
+
+    @property
+    def alt(self) -> str:
+        """Their descriptions, with numbers."""
+        return " ".join(f"{i}. {view.alt}" for i, view in enumerate(self._views, 1))
+
+    def _images(self) -> dict[str, bytes]:
+        return {}
+
+    @property
+    def html(self) -> str:
+        """Their forms for pages."""
+        return "".join(view.html or "" for view in self._views)
 
 
 def matplotlib_picture(

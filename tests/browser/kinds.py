@@ -13,7 +13,7 @@ from rosmini.msgs.nav_msgs.msg import OccupancyGrid, Path
 from rosmini.sim.turtlesim import Frame
 from rosmini.sim.turtlesim.turtle import STEP_S
 from rosmini.sim.worlds import world
-from rosmini.viz import action_states, byte_map, grid, matplotlib_picture, plot, rqt_graph, sequence_diagram
+from rosmini.viz import action_states, byte_map, matplotlib_picture, plot, rqt_graph, sequence_diagram
 from rosmini.viz.beams import beams_of
 from rosmini.viz.figures import WIDTH
 from rosmini.viz.rviz import Scene
@@ -120,9 +120,5 @@ KINDS = {
     "turtles": _turtles,
     "own_figure": _own_figure,
     "rviz": _rviz,
-    "grid": lambda: grid(
-        WorldScene(world("room")).picture("a world", (320, 320)),
-        plot({"speed": ([0, 1, 2], [0, 2, 1])}, x="t [s]", y="v [m/s]", width=320, title="a plot"),
-    ),
 }
 """By name, the function that makes it."""

@@ -30,7 +30,7 @@ WRITE = os.environ.get("ROSMINI_WRITE_REFERENCES") == "1"
 SHAPES, WORDS = 1.5, 18.0
 """How much a block of the two screenshots may differ, of 255."""
 
-ALSO = ("world", "plot", "graph", "own_figure", "grid")
+ALSO = ("world", "plot", "graph", "own_figure")
 """What is looked at in dark and on paper, too."""
 CASES = [(kind, "light") for kind in KINDS] + [(kind, theme) for theme in ("dark", "print") for kind in ALSO]
 

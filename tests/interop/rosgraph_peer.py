@@ -21,19 +21,7 @@ facts["script names"] = [
     rosgraph.names.script_resolve_name("tool", name) for name in ("", None, "a", "/a", "~a", "~a/b", "a/b", "~")
 ]
 names = roslib.names
-facts["resource names"] = [
-    [names.resource_name("p", "n"), names.resource_name("p", "n", "p"), names.resource_name("p", "n", "q")],
-    [names.resource_name_base(name) for name in ("p/n", "n", "")],
-    [names.resource_name_package(name) for name in ("p/n", "n")],
-    [list(names.package_resource_name(name)) for name in ("p/n", "n")],
-    [bool(names.is_legal_resource_name(name)) for name in ("p/n", "n", "1n", "a b", "p/n_2")],
-    [bool(names.is_legal_resource_base_name(name)) for name in ("p/n", "n", "1n", "n_2")],
-    [names.PRN_SEPARATOR, names.TYPE_SEPARATOR, names.SEP, names.REMAP, names.ANYTYPE],
-]
-try:
-    names.package_resource_name("a/b/c")
-except ValueError:
-    facts["too many"] = "ValueError"
+facts["separators"] = [names.SEP, names.REMAP, names.ANYTYPE]
 
 
 def command(*arguments):

@@ -15,6 +15,7 @@ from rosmini.core.graph import show as show_module
 from rosmini.viz import Picture, ViewError, matplotlib_picture, rqt_graph, style
 from rosmini.viz.alt_text import AltText
 from rosmini.viz.svg import clean, element, escape, number
+from rosmini.viz.view import Views
 
 ROOT = Path(__file__).parents[2]
 SYSTEM = [[["/chatter", ["/talker"]]], [["/chatter", ["/listener"]]], []]
@@ -230,3 +231,11 @@ def test_the_built_page_shows_pictures_with_their_alt_texts_and_captions(built_p
     assert "rosmini-figure" in figure
     assert 'alt="A &quot;single&quot; pixel."' in figure
     assert "<figcaption>One &lt;pixel&gt;</figcaption>" in figure  # and no number of Sphinx's
+
+
+def test_views_one_below_the_other_have_the_words_and_the_pages_of_all():
+    one, other = (Picture("<svg/>", text=f"text {n}", alt=f"alt {n}") for n in (1, 2))
+    both = Views([one, other])
+    assert both.text == "text 1\ntext 2"
+    assert both.alt == "1. alt 1 2. alt 2"
+    assert both.html == one.html + other.html

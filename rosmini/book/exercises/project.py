@@ -24,6 +24,7 @@ from rosmini.core.packages import PackageIndex
 from rosmini.msgs.move_base_msgs.msg import MoveBaseAction
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.msgs.std_srvs.srv import Empty
+from rosmini.viz.view import Views
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -320,15 +321,13 @@ def _passes(answer: str, reports: Sequence[str]) -> bool:
 @exercise("project", praise="The package patrols a house that it has never seen like this.")
 def project(answer: Any) -> Any:
     """The name of a package, or a tuple: the name, and the seeds of the nights. A seed of the check replaces these."""
-    from rosmini.viz import grid
-
     name, *seeds = answer if isinstance(answer, tuple) else (answer,)
     expect_type(name, str, "project is", "the name of a package")
     seeds_said = "The seeds must be whole numbers from 0."
     expect(all(isinstance(seed, int) and seed >= 0 for seed in seeds), seeds_said, '("patrol_robot", 4, 5)')
     if seed := SEED.get():
         seeds = [seed]
-    return grid(*(night.view for night in nights(name, seeds or SEEDS)), columns=1)
+    return Views([night.view for night in nights(name, seeds or SEEDS)])
 
 
 def nights(name: str, seeds: Sequence[int]) -> list[Night]:

@@ -1,10 +1,8 @@
-"""``roslib.packages``: locations and contents of packages."""
+"""``roslib.packages``: locations of packages."""
 
 from __future__ import annotations
 
 import os
-from pathlib import Path
-from typing import Any
 
 from rosmini.core.errors import RosminiError, UnknownPackage
 from rosmini.core.packages import PackageIndex
@@ -35,19 +33,3 @@ def get_pkg_dir(
         if not required:
             return None
         raise InvalidROSPkgException(str(error)) from error
-
-
-def get_pkg_subdir(package: str, subdir: str, required: bool = True, env: Any = None) -> str | None:
-    """Return a folder of a package; create it if ``required`` and missing. Raises ``InvalidROSPkgException``."""
-    home = get_pkg_dir(package, required, ros_package_path=(env or {}).get("ROS_PACKAGE_PATH"))
-    if home is None:
-        return None
-    folder = Path(home) / subdir
-    if required:
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise ROSPkgException(
-                f"the folder {folder} of package {package} cannot be made: {error.strerror}"
-            ) from error
-    return str(folder)

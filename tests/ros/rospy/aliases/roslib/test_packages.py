@@ -1,4 +1,4 @@
-"""Where packages are, and what is in them."""
+"""Where packages are."""
 
 from __future__ import annotations
 
@@ -15,23 +15,16 @@ MANIFEST = (
 
 @pytest.fixture
 def package(tmp_path, monkeypatch):
-    """A package with an executable, a file beside it, and a folder of data."""
+    """The folder of a package on the path."""
     home = tmp_path / "src" / "mine"
-    (home / "scripts").mkdir(parents=True)
+    home.mkdir(parents=True)
     (home / "package.xml").write_text(MANIFEST, encoding="utf-8")
-    for name, mode in (("talker", 0o755), ("notes", 0o644)):
-        (home / "scripts" / name).write_text("", encoding="utf-8")
-        (home / "scripts" / name).chmod(mode)
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "src"))
     return home
 
 
 def test_folders(package):
     assert packages.get_pkg_dir("mine") == str(package)
-    assert packages.get_pkg_subdir("mine", "maps", required=False) == str(package / "maps")
-    assert not (package / "maps").exists()
-    packages.get_pkg_subdir("mine", "maps")
-    assert (package / "maps").is_dir()
 
 
 def test_another_package_path(package, monkeypatch):
