@@ -56,6 +56,7 @@ def put(folder: Path, chapter: str, name: str, text: str) -> None:
     path.write_text(text, encoding="utf-8")
 
 
+@pytest.mark.nightly
 def test_the_scripts_of_all_chapters_pass_and_a_wrong_one_does_not(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, mypy: Mypy
 ) -> None:

@@ -184,6 +184,7 @@ def test_a_door_does_not_close_on_a_robot_but_opens_again():
     assert min(angle for _, angle in watched(engine, LEAF.motion.period)) == pytest.approx(0.0, abs=1e-3)
 
 
+@pytest.mark.nightly
 def test_a_door_that_opens_onto_a_robot_goes_back_and_leaves_it_room():
     engine = make(LEAF)
     robot = engine.add("burger", BURGER, (0.1, 0.35, 0.0))

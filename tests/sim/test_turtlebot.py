@@ -148,6 +148,7 @@ def test_the_error_of_turns_is_that_of_the_scale_or_of_the_distance_of_the_wheel
     assert wheels.std() == pytest.approx(BURGER.errors.separation * turned, rel=0.5)
 
 
+@pytest.mark.nightly
 def test_reset_calibrates_the_gyroscope_and_sets_odometry_to_zero(graph):
     bench = Bench(graph)
     bench.go(3.0, 0.1, 0.5)

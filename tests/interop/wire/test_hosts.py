@@ -160,6 +160,7 @@ def walled(host: Host) -> Iterator[None]:
             yield
 
 
+@pytest.mark.nightly
 def test_behind_a_firewall_a_turtle_obeys_and_nobody_hears_it(site: Site, hosts: Hosts) -> None:
     """Calls go out and none come in: what the chapter Many machines calls one direction only; how it is recognised."""
     if not hosts.are_apart:

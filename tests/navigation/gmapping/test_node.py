@@ -39,6 +39,7 @@ def listen(graph):
     return node, heard
 
 
+@pytest.mark.nightly
 def test_a_room_is_mapped_live_and_saved(graph, tmp_path):
     simulator = Simulator(graph.node("simulator"), world="room", model="burger")
     roslaunch("turtlebot3_bringup", "turtlebot3_remote.launch", graph=graph, model="burger")

@@ -43,6 +43,7 @@ def listen(graph):
     return node, heard
 
 
+@pytest.mark.nightly
 def test_a_room_is_mapped_live(graph):
     """Turned slowly, since a scan of this laser takes 0.2 s; the odometry is not looked at."""
     world = graph.node("simulator")

@@ -258,6 +258,7 @@ def change(rig, **values):
     return {each.name: each.value for each in answers[0].config.strs}
 
 
+@pytest.mark.nightly
 def test_planners_change_at_run_time(graph):
     rig = start(graph)
     held = change(rig, base_global_planner="test_node/Straight")

@@ -52,6 +52,7 @@ def test_a_straight_stroke_needs_its_ends_and_where_its_pace_changes():
     ]  # fmt: skip
 
 
+@pytest.mark.nightly
 def test_strokes_of_a_hundred_thousand_points_are_thinned():
     angle = np.linspace(0.0, 200 * math.pi, 100_000)
     spiral = np.column_stack([angle * np.cos(angle), angle * np.sin(angle)]) / 100
