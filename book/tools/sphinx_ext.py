@@ -211,6 +211,8 @@ def describe_pictures(app: Sphinx, docname: str, content: list[str]) -> None:
         if "alt" in cell["metadata"]:
             label = f'aria-label="{escape(cell["metadata"]["alt"])}"'.replace("\\", r"\\")
             for output in cell["outputs"]:
+                if "image/png" in output.get("data", {}):
+                    output["metadata"].setdefault("image/png", {})["alt"] = cell["metadata"]["alt"]
                 if html := output.get("data", {}).get("text/html"):
                     output["data"]["text/html"] = re.sub(r'aria-label="[^"]*"', label, "".join(html), count=1)
     content[0] = json.dumps(notebook)

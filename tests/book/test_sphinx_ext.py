@@ -207,15 +207,14 @@ def test_the_address_of_the_repository_is_one_setting(url, text, tmp_path):
 
 def test_a_cells_alternative_text_replaces_the_pictures_own():
     svg = '<svg aria-label="plot: 12 points"></svg>'
-    cell = new_code_cell(
-        "plot()", metadata={"alt": 'A "curve"'}, outputs=[new_output("display_data", {"text/html": svg})]
-    )
+    outputs = [new_output("display_data", data) for data in ({"text/html": svg}, {"image/png": "iVBORw0KGgo="})]
+    cell = new_code_cell("plot()", metadata={"alt": 'A "curve"'}, outputs=outputs)
     app = SimpleNamespace(env=SimpleNamespace(doc2path=lambda name: f"{name}.ipynb"))
     content = [json.dumps(new_notebook(cells=[cell]))]
     describe_pictures(app, "chapter", content)
-    assert json.loads(content[0])["cells"][0]["outputs"][0]["data"]["text/html"] == (
-        '<svg aria-label="A &quot;curve&quot;"></svg>'
-    )
+    drawn, image = json.loads(content[0])["cells"][0]["outputs"]
+    assert drawn["data"]["text/html"] == '<svg aria-label="A &quot;curve&quot;"></svg>'
+    assert image["metadata"]["image/png"]["alt"] == 'A "curve"'
 
 
 def test_thebe_is_silent(page):

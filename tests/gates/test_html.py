@@ -113,6 +113,7 @@ def test_no_page_has_the_scripts_that_jupyter_book_loads_from_the_network(book_h
         ("<p>open http://127.0.0.1:7000 now</p>", "a local address in the text: open http://127.0.0.1:7000 now"),
         ('<img src="a.png">', "an image without a text: a.png"),
         ('<img src="a.png" alt=" ">', "an image without a text: a.png"),
+        ('<img src="a.png" alt="a.png">', "an image without a text: a.png"),
         ("<p id='a'>1</p><p id='a'>2</p>", "an id twice: a (p)"),
         ("<svg class='graph'><path d='M0 0'/></svg>", "a drawing without a text: svg graph"),
         ('<iframe src="a.html"></iframe>', "a frame without a title: a.html"),
