@@ -64,7 +64,7 @@ class RunScene(Scene):
         run = self.recording
         seen = f" In its last scan, {self.beams.clause()}." if self.beams is not None else ""
         return (
-            f"The way of a robot in the world {run.world.name}, from above: a solid line from "
+            f"The path of a robot in the world {run.world.name}, from above: a solid line from "
             f"{pose_text(run.truth[0])} to {pose_text(run.truth[-1])}, {fixed(run.distance, 2)} m long, "
             f"driven in {fixed(run.duration, 1)} s. "
             f"A dashed line shows where odometry believes that it was: {_drift_text(run.drift())} at the end."

@@ -71,7 +71,9 @@ class Collector(ABC):
         """Return the pose of a header's frame at its time. Raises `ViewError` if it is unknown."""
         found = self.frames.pose(header.frame_id, header.stamp.to_nsec())
         if found is None:
-            raise ViewError(f"no transform from {header.frame_id!r} to {self.frames.fixed!r} at their times")
+            raise ViewError(
+                f"no transform from {header.frame_id!r} to {self.frames.fixed!r} at the time of the message"
+            )
         return found
 
 

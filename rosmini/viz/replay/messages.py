@@ -268,7 +268,7 @@ def _process(collector: Collector, entry: Entry) -> None:
     try:
         collector.take(entry.time, entry.read())
     except DeserializationError as error:
-        reason = f"they cannot be read ({error})"
+        reason = f"not readable ({error})"
     except RosminiError as error:
         reason = str(error)
     else:
