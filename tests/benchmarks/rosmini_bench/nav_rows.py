@@ -147,7 +147,7 @@ def _together(goals: Rows) -> Iterator[str]:
             low, high = wilson(reached, count)
             yield (
                 f"- All worlds, {localization}, seed {seed}: {reached} of {count} reached ({reached / count:.1%}; "
-                f"95% interval {low:.1%} to {high:.1%}), contacts on the way to {sum(one.contacts for one in found)}."
+                f"95% interval {low:.1%} to {high:.1%}), {sum(one.contacts for one in found)} with a contact."
             )
 
 
@@ -207,7 +207,8 @@ How to read the table:
 
 - **Reached**: `move_base` reported `SUCCEEDED`, and the true pose was within the goal tolerance. With `amcl`, whose
   estimate has an error, 0.25 m and 0.3 rad are allowed.
-- **95% interval**: Wilson's interval for the share. Two rows whose intervals overlap do not differ for certain.
+- **95% interval**: Wilson's interval for the share. If the intervals of two rows overlap, the difference may be due to
+  chance.
 - **Contacts**: the number of goals on the way to which the robot hit something.
 - **Length**: the driven path divided by the shortest path that keeps 0.15 m from everything in the map. **Time**: the
   time divided by that of the shortest path at full speed. Each cell shows the median of the reached goals, and in
@@ -222,7 +223,7 @@ and changed nothing for it. Rows of fewer than {LEAST} goals are only in the fil
 OTHERS = """## Other robots, planners and files
 
 *Narrower places* are starts and goals with less room. *No sweep* means that all beams are measured at the same moment.
-Rows without *careful* use only the files in the form of ROBOTIS's.
+Rows without *careful* use only the files of `turtlebot3_navigation`, without `careful.yaml`.
 """
 
 CYLINDERS = """## Between cylinders that are not in the map
@@ -259,8 +260,8 @@ have the same effect as a shut door. Neither explorer looks at a wall a second t
 CROSSING = """## Robots that cross one another's paths
 
 Burgers in the house, each with its own `amcl`, are sent at the same moment to the start of another one. A contact is
-charged to each robot that moved faster than 0.02 m/s when it began. Each planner takes the other robot for an obstacle
-that stands still where the last scan saw it.
+charged to each robot that moved faster than 0.02 m/s when it began. Each planner treats the other robots as stationary
+obstacles, at the places where the last scan saw them.
 
 The robots use the careful files: `multi_turtlebot3_navigation.launch` sets `careful:=true`. We chose this with the
 seeds 0 to 49 of the table. In the same runs without *careful*, 197 of 200 goals were reached, with 13 contacts in three
@@ -280,7 +281,7 @@ chapter {doc}`../../notebooks/7_navigation/95_tune_and_fix` shows how to find an
 with what `careful.yaml` changes:
 
 - **Footprint.** The origin of a burger is near its front, so the inscribed radius of its footprint is only 5 cm.
-  A global plan keeps only this distance, and leads through places too narrow for its sides, such as between the legs
+  A global plan keeps only this distance, and leads through places too narrow for the robot, such as between the legs
   of a chair. The local planner checks the whole footprint and refuses to drive there. *Careful* plans for a disc.
 - **No way back.** A robot whose front is 3 cm from an obstacle cannot drive forward, and cannot turn either. *Careful*
   allows -0.1 m/s, as ROBOTIS's files do.
