@@ -175,7 +175,7 @@ def caption_label(paragraph: nodes.paragraph) -> str | None:
 
 
 def place_caption(paragraph: nodes.paragraph, label: str) -> None:
-    """Put the caption below the last output of the cell before it, or above the table after it.
+    """Put the caption above the table after it, or below the last output of the cell before it.
 
     Elsewhere it stays a paragraph, which has the label.
     """
@@ -188,7 +188,7 @@ def place_caption(paragraph: nodes.paragraph, label: str) -> None:
         for part in (before.children if isinstance(before, nodes.container) else ())
         if isinstance(part, nodes.container) and "cell_output" in part.get("classes", ()) and part.children
     ]
-    if outputs:
+    if outputs and not isinstance(after, nodes.table):
         picture = outputs[-1].children[-1]
         outputs[-1].remove(picture)
         outputs[-1].append(nodes.figure("", picture, nodes.caption("", "", *words), ids=[label]))

@@ -124,6 +124,12 @@ def html(tmp_path_factory):
     (source / "notebooks").mkdir()
     caption = new_markdown_cell('<a id="a-robot"></a>Figure 1: Its own caption')
     notebooks.write(new_notebook(cells=[cell, caption]), source / "notebooks" / "stored.ipynb")
+    captions = new_markdown_cell(
+        '<a id="its-picture"></a>Figure 1: A picture\n\n<a id="its-rows"></a>Table 1: Rows\n\n| a |\n|---|\n| 1 |'
+    )
+    python = {"name": "python", "pygments_lexer": "python"}
+    chapter = new_notebook(cells=[cell, captions], metadata={"orphan": True, "language_info": python})
+    notebooks.write(chapter, source / "chapter.ipynb")
     assert build(source, PAGE) == ""
     return source / "out"
 
@@ -177,6 +183,13 @@ def test_a_table_has_its_caption_and_label(page):
     table = re.search(r'<table [^>]*id="two-rows">(.*?)</table>', page, re.DOTALL)[1]
     assert re.search(r"<caption>.*Table 1: Two <em>rows</em>", table, re.DOTALL)
     assert 'href="#two-rows"' in page
+
+
+def test_a_table_that_follows_a_figure_has_its_own_caption(html):
+    page = (html / "chapter.html").read_text(encoding="utf-8")
+    assert re.findall(r'<figure class="align-default" id="([^"]*)"', page) == ["its-picture"]
+    table = re.search(r'<table [^>]*id="its-rows">(.*?)</table>', page, re.DOTALL)[1]
+    assert re.search(r"<caption>.*Table 1: Rows", table, re.DOTALL)
 
 
 def test_a_stored_figure_is_shown_with_another_caption(page):
