@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import io
-from typing import Any, NamedTuple
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rosmini.core.errors import nearest
+from rosmini.core.lazy import np
 from rosmini.viz.rounding import fixed
 from rosmini.viz.style import LABEL_SIZE, LIGHT
 from rosmini.viz.view import Picture, ViewError, matplotlib_picture
 
-Pixels = NDArray[np.uint8]
-Floats = NDArray[np.float64]
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Pixels = NDArray[np.uint8]
+    Floats = NDArray[np.float64]
 
 WIDTH = 480
 """Default maximum width of a picture [px]."""

@@ -6,9 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
+from rosmini.core.lazy import np
 from rosmini.viz.figures import WIDTH, add_axes, blank_figure, house_style, legend, set_ticks, step_of
 from rosmini.viz.rounding import fixed, snap
 from rosmini.viz.style import LABEL_SIZE, LIGHT
@@ -17,8 +15,9 @@ from rosmini.viz.words import plural
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from numpy.typing import ArrayLike, NDArray
 
-Floats = NDArray[np.float64]
+    Floats = NDArray[np.float64]
 
 COLOURS = ("blue", "orange", "green", "vermilion", "purple")
 MARKS = ("o", "s", "^", "D", "v")
