@@ -11,7 +11,7 @@ import pytest
 import rosmini
 
 FINDER = doctest.DocTestFinder(exclude_empty=True)
-WITHOUT = ("rosmini.__main__", "rosmini._assets", "rosmini.core.graph.promise_stacks")
+WITHOUT = ("rosmini.__main__", "rosmini._assets", "rosmini.core.graph.promise_stacks", "rosmini.notebook.page")
 
 
 def examples() -> list[doctest.DocTest]:

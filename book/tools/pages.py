@@ -37,9 +37,13 @@ VIEWER_CALL = "globalThis.rosminiMeshcat.mount("
 MOST_VIEWERS = 6
 """Browsers draw only about eight WebGL pictures at a time: each one more takes the place of the oldest."""
 IN_SCRIPT = re.compile(r"\b(?:import\s*\(?|from|fetch\(|importScripts\(|require\()\s*[\"'](https?://[^\"']+)")
-# What the scripts of moving pictures have no use for, whatever the address.
+# What other scripts have no use for, whatever the address.
 ASKING = re.compile(r"\b(fetch\(|XMLHttpRequest|WebSocket|EventSource|sendBeacon|importScripts|import\(|connect\()")
 ADDRESS = re.compile(r"(?:https?|wss?)://[^\s\"'`)]+")
+ASKS = {"run-worker.js": "https://cdn.jsdelivr.net/npm/pyodide@0.29.5/"}
+"""The one script that asks for something, after the reader has pressed a button, and the one address that it asks."""
+OWN = {"pictures.js", "progress.js", "run.js", "run-worker.js"}
+"""The scripts of `book/static`."""
 # The names of XML's vocabularies look like addresses; nothing is fetched from there.
 NAMESPACES = {"http://www.w3.org/1999/xhtml", "http://www.w3.org/2000/svg"}
 # Where meshcat's viewer looks for its server when somebody calls its `connect`, which our scripts may not.
@@ -112,13 +116,14 @@ class Page(HTMLParser):
             self.problems += [f"in a frame: {problem}" for problem in inner.problems]
 
 
-def script_problems(text: str, *, ours: bool = True) -> list[str]:
-    """What a script of a moving picture may not contain; one that is not `ours` may have code that never runs."""
+def script_problems(text: str, *, ours: bool = True, asks: str | None = None) -> list[str]:
+    """What a script may not contain; one that is not `ours` may have code that never runs, and one may ask `asks`."""
     harmless = NAMESPACES if ours else NAMESPACES | UNUSED
-    problems = [f"names {address}" for address in ADDRESS.findall(text) if address not in harmless]
-    if "127.0.0.1" in text or "localhost" in text:
+    found = (address for address in ADDRESS.findall(text) if asks is None or not address.startswith(asks))
+    problems = [f"names {address}" for address in found if address not in harmless]
+    if "127.0.0.1" in text or "//localhost" in text:
         problems.append("names this machine")
-    if ours:
+    if ours and asks is None:
         problems += [f"uses {asking.rstrip('(')}" for asking in ASKING.findall(text)]
     return problems
 
@@ -154,9 +159,9 @@ def site_problems(site: Path) -> Iterator[str]:
             problems = [*page_problems(text), *_missing_scripts(text, site / "_static")]
             yield from (f"{path.relative_to(site).as_posix()}: {problem}" for problem in problems)
     for path in sorted((site / "_static").glob("*.js")):
-        if path.name == MESHCAT or path.name.startswith("rosmini"):
+        if path.name == MESHCAT or path.name in OWN or path.name.startswith("rosmini"):
             text = path.read_text(encoding="utf-8")
-            problems = script_problems(text, ours=path.name != MESHCAT)
+            problems = script_problems(text, ours=path.name != MESHCAT, asks=ASKS.get(path.name))
             yield from (f"{path.relative_to(site).as_posix()}: {problem}" for problem in problems)
     for path in sorted(site.rglob("*.css")):
         text = path.read_text(encoding="utf-8")

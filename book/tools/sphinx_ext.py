@@ -17,6 +17,7 @@
   repository's address (`repository.url` in `_config.yml`), the second from the notebooks.
 - The first use of a term leads to the glossary, and the index is collected (`book.tools.subject_index`).
 - The directive `progress-list` lists pages and exercises to tick (`book.tools.progress`).
+- Some pages have the button *Run in this page* (`book.tools.run_in_page`).
 - A notebook that a reader downloads begins with a cell that says how to get what it needs.
 """
 
@@ -37,7 +38,7 @@ from sphinx import addnodes
 from sphinx.transforms import SphinxTransform
 from sphinx.util.docutils import SphinxDirective
 
-from book.tools import notebooks, progress, reading, reference, subject_index
+from book.tools import notebooks, progress, reading, reference, run_in_page, subject_index
 from book.tools.captions import CAPTION
 from book.tools.lexer import CellLexer
 from book.tools.pages import VIEWER_CALL
@@ -435,6 +436,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_transform(Captions)
     subject_index.setup(app)
     progress.setup(app)
+    run_in_page.setup(app)
     app.add_directive("drawing", Drawing)
     app.add_directive("stored", Stored)
     app.add_directive("parameters", reference.ParameterTables)

@@ -4,6 +4,7 @@ import json
 import os
 import sys
 from contextlib import contextmanager
+from pathlib import Path
 from urllib.request import Request, urlopen
 
 import numpy as np
@@ -217,6 +218,18 @@ def open_in_lab(jupyterlab):
     yield open_in_lab
     for kernel in json.loads(ask("GET", "kernels")):
         ask("DELETE", f"kernels/{kernel['id']}")
+
+
+@pytest.fixture(scope="session")
+def pyodide():
+    """The folder of npm's package `pyodide`; skips without it, and fails if ROSMINI_REQUIRE_BROWSER=1."""
+    folder = os.environ.get("ROSMINI_PYODIDE")
+    if folder is None:
+        message = "ROSMINI_PYODIDE names no folder of npm's package pyodide"
+        if os.environ.get("ROSMINI_REQUIRE_BROWSER") == "1":
+            pytest.fail(f"{message} (ROSMINI_REQUIRE_BROWSER=1)")
+        pytest.skip(message)
+    return Path(folder)
 
 
 @pytest.fixture(scope="session")

@@ -3,16 +3,11 @@
 ROSMINI_PYODIDE names the folder of npm's package `pyodide`. No registry has Pyodide's numpy; the graph needs none.
 """
 
-import os
-from importlib.metadata import distribution
-from pathlib import Path
-from zipfile import ZipFile
-
 import pytest
 
-PAGE = "http://rosmini.test/"
+from book.tools.run_in_page import write_packages
 
-PURE = ["catkin-pkg", "defusedxml", "docutils", "h11", "packaging", "pyparsing", "python-dateutil", "PyYAML"]
+PAGE = "http://rosmini.test/"
 
 START = """async () => {
     const script = document.createElement("script");
@@ -101,37 +96,18 @@ run_js("(function_) => function_()")(block)
 """
 
 
-def packages(archive, root):
-    """Store the library of the checkout and the pure Python packages that it needs, as Pyodide unpacks them."""
-    with ZipFile(archive, "w") as file:
-        for folder, name in ((root / "rosmini", "rosmini"), (root / "assets", "rosmini/_assets")):
-            for path in folder.rglob("*"):
-                if path.suffix in (".py", ".msg", ".srv", ".action", ".xml"):
-                    file.write(path, f"{name}/{path.relative_to(folder).as_posix()}")
-        for name in PURE:
-            for path in distribution(name).files:
-                if path.suffix == ".py":
-                    file.write(path.locate(), path.as_posix())
-
-
 @pytest.fixture(scope="module")
-def page(chromium, root, tmp_path_factory):
+def page(chromium, pyodide, tmp_path_factory):
     """A page in which Pyodide has loaded the library, with the function `run`."""
-    core = os.environ.get("ROSMINI_PYODIDE")
-    if core is None:
-        message = "ROSMINI_PYODIDE names no folder of npm's package pyodide"
-        if os.environ.get("ROSMINI_REQUIRE_BROWSER") == "1":
-            pytest.fail(f"{message} (ROSMINI_REQUIRE_BROWSER=1)")
-        pytest.skip(message)
     folder = tmp_path_factory.mktemp("pyodide")
-    packages(folder / "packages.zip", root)
+    write_packages(folder / "packages.zip")
 
     def answer(route):
         name = route.request.url.removeprefix(PAGE)
         if not name:
             route.fulfill(body="<!doctype html><title>Pyodide</title>", content_type="text/html")
         else:
-            route.fulfill(path=(folder if name == "packages.zip" else Path(core)) / name)
+            route.fulfill(path=(folder if name == "packages.zip" else pyodide) / name)
 
     context = chromium.new_context()
     context.route(f"{PAGE}**", answer)

@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 from book.tools import notebooks
-from book.tools.pages import page_problems, script_problems, site_problems
+from book.tools.pages import ASKS, OWN, page_problems, script_problems, site_problems
 from rosmini.viz.embed import MESHCAT, STATIC, asset_path, embed
 
 
@@ -173,6 +173,15 @@ def test_what_a_page_loads_has_to_be_there(tmp_path):
         "_static/rosmini-meshcat.js: names https://example.org/a",
         "_static/rosmini-meshcat.js: uses fetch",
     ]
+
+
+def test_one_script_of_the_book_asks_one_address(root):
+    scripts = {path.name: path.read_text(encoding="utf-8") for path in (root / "book" / "static").glob("*.js")}
+    assert scripts.keys() == OWN
+    assert {name for name, text in scripts.items() if script_problems(text)} == ASKS.keys()
+    for name, address in ASKS.items():
+        assert script_problems(scripts[name], asks=address) == []
+        assert script_problems("fetch('https://example.org/')", asks=address) == ["names https://example.org/"]
 
 
 def test_the_scripts_of_moving_pictures_ask_nobody_for_anything():

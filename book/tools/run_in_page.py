@@ -1,0 +1,99 @@
+"""The button *Run in this page*: the pages that have it, and the packages that they load.
+
+`book/static/run.js` is the button. `book/static/run-worker.js` starts Pyodide, which runs the cells in the shell of
+`rosmini.notebook.page`.
+"""
+
+from __future__ import annotations
+
+import re
+from importlib.metadata import distribution
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from sphinx.application import Sphinx
+
+PAGES = ("notebooks/4_files/50_catkin", "notebooks/4_files/40_from_scratch")
+"""The pages whose cells run in the browser: none of them needs numpy."""
+
+CORE_MB = 5.5
+"""Size of Pyodide's own files, as they are sent [MB]."""
+
+PURE = [
+    "asttokens",
+    "catkin-pkg",
+    "defusedxml",
+    "docutils",
+    "executing",
+    "h11",
+    "ipython",
+    "ipython-pygments-lexers",
+    "matplotlib-inline",
+    "packaging",
+    "platformdirs",
+    "prompt-toolkit",
+    "pure-eval",
+    "pygments",
+    "pyparsing",
+    "python-dateutil",
+    "PyYAML",
+    "stack-data",
+    "traitlets",
+    "wcwidth",
+    "xacro",
+]
+"""The packages in Python alone that a page's shell and rosmini import."""
+
+CHECKOUT = Path(__file__).resolve().parents[2]
+
+
+def files() -> Iterator[tuple[str, Path]]:
+    """Yield name and path of each file that a page unpacks: rosmini, and the pure packages with their licences."""
+    folders = {CHECKOUT / "rosmini": "rosmini"}
+    folders |= {CHECKOUT / "assets" / name: f"rosmini/_assets/{name}" for name in ("core", "ros")}
+    for folder, name in folders.items():
+        for path in sorted(folder.rglob("*")):
+            if path.is_file() and path.suffix not in {".pyc", ".pyi"}:
+                yield f"{name}/{path.relative_to(folder).as_posix()}", path
+    for name in PURE:
+        for file in sorted(distribution(name).files or []):
+            is_wanted = file.suffix in {".py", ".json"} or re.search("licen[cs]e|copying", file.name, re.IGNORECASE)
+            if is_wanted and ".." not in file.parts:
+                yield file.as_posix(), Path(str(file.locate()))
+    for file in distribution("rosmini-ros").files or []:
+        if file.name in {"METADATA", "entry_points.txt", "LICENSE"}:
+            yield file.as_posix(), Path(str(file.locate()))
+
+
+def write_packages(archive: Path) -> None:
+    """Write the ZIP file of all of them; the same files give the same bytes."""
+    archive.parent.mkdir(parents=True, exist_ok=True)
+    with ZipFile(archive, "w", ZIP_DEFLATED) as written:
+        for name, path in files():
+            entry = ZipInfo(name)
+            entry.external_attr = (path.stat().st_mode & 0o777) << 16
+            written.writestr(entry, path.read_bytes(), ZIP_DEFLATED)
+
+
+def add_packages(app: Sphinx) -> None:
+    """Put the packages beside the scripts."""
+    if app.builder.name == "html":
+        write_packages(Path(app.outdir, "_static", "packages.zip"))
+
+
+def add_button(app: Sphinx, pagename: str, *_: Any) -> None:
+    """Add the script of the button to the pages that have it."""
+    if pagename in PAGES and app.builder.name == "html":
+        size = CORE_MB + Path(app.outdir, "_static", "packages.zip").stat().st_size / 1e6
+        attributes: dict[str, Any] = {"data-megabytes": f"{size:.0f}"}
+        app.add_js_file("run.js", loading_method="defer", **attributes)
+
+
+def setup(app: Sphinx) -> None:
+    """Register it with Sphinx."""
+    app.connect("builder-inited", add_packages)
+    app.connect("html-page-context", add_button)

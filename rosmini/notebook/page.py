@@ -1,0 +1,122 @@
+"""The shell in which a page of the book runs its cells, in Pyodide. `book/static/run-worker.js` calls it."""
+
+from __future__ import annotations
+
+import builtins
+import io
+import json
+import os
+import re
+import signal
+import sys
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any
+
+from IPython.core.displayhook import DisplayHook
+from IPython.core.displaypub import DisplayPublisher
+from IPython.core.interactiveshell import InteractiveShell
+from pyodide.ffi import JsException, run_sync
+
+from rosmini.viz.embed import BOOK, VARIABLE
+
+if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable, Mapping
+
+_COLOURS = re.compile(r"\x1b\[[0-9;]*m")
+
+
+def start(post: Callable[[str], object], ask: Callable[[str], Awaitable[str]]) -> None:
+    """Begin a session.
+
+    Each output is posted as JSON: ``{"kind": "stream", "name": ..., "text": ...}``,
+    ``{"kind": "data", "data": {MIME type: text}}`` or ``{"kind": "error", "text": ...}``. ``ask`` returns a promise of
+    the line that ``input(prompt)`` returns.
+    """
+
+    def send(**output: Any) -> None:
+        post(json.dumps(output, default=str))
+
+    def read_line(prompt: object = "") -> str:
+        try:
+            return str(run_sync(ask(str(prompt))))
+        except JsException as error:  # the reader has stopped it
+            raise KeyboardInterrupt from error
+
+    os.environ[VARIABLE] = BOOK
+    shell: Any = PageShell.instance()
+    shell.history_manager.enabled = False
+    shell.send = shell.display_pub.send = shell.displayhook.send = send
+    builtins.input = read_line
+    sys.stdout, sys.stderr = PageStream("stdout", send), PageStream("stderr", send)
+
+
+def run(source: str) -> bool:
+    """Run a cell; return whether it ended without an error. JavaScript calls this with ``callPromising``."""
+    shell: Any = PageShell.instance()
+    return bool(shell.run_cell(source, store_history=True).success)
+
+
+def stop() -> None:
+    """End the cell that runs, as soon as graph time passes in it."""
+    with suppress(KeyboardInterrupt):  # nothing runs that could end
+        signal.raise_signal(signal.SIGINT)
+
+
+class PageStream(io.TextIOBase):
+    """Standard output or error of the page."""
+
+    encoding = "utf-8"
+
+    def __init__(self, name: str, send: Callable[..., None]) -> None:
+        super().__init__()
+        self.name = name
+        self._send = send
+
+    def write(self, text: str) -> int:
+        """Post a text."""
+        if shown := _COLOURS.sub("", text):
+            self._send(kind="stream", name=self.name, text=shown)
+        return len(text)
+
+
+class PageDisplayHook(DisplayHook):
+    """Posts the value of a cell."""
+
+    send: Callable[..., None]
+
+    def write_output_prompt(self) -> None:
+        """Post nothing: the page has no prompts."""
+
+    def write_format_data(self, format_dict: Mapping[str, Any], md_dict: object = None) -> None:  # noqa: ARG002
+        """Post the value in all its forms."""
+        self.send(kind="data", data=dict(format_dict))
+
+    def finish_displayhook(self) -> None:
+        """Post nothing more."""
+
+
+class PageDisplayPublisher(DisplayPublisher):
+    """Posts what a cell displays."""
+
+    send: Callable[..., None]
+
+    def publish(self, data: Mapping[str, Any], *_: object, **__: object) -> None:
+        """Post something in all its forms."""
+        self.send(kind="data", data=dict(data))
+
+
+class PageShell(InteractiveShell):
+    """IPython without a terminal and without files."""
+
+    send: Callable[..., None]
+    displayhook_class = PageDisplayHook
+    display_pub_class = PageDisplayPublisher
+
+    def init_virtualenv(self) -> None:
+        """Do nothing: a page has no virtual environment."""
+
+    def enable_gui(self, gui: object = None) -> None:
+        """Do nothing: there are no windows."""
+
+    def _showtraceback(self, etype: object, evalue: object, stb: list[str]) -> None:  # noqa: ARG002
+        self.send(kind="error", text=_COLOURS.sub("", "\n".join(stb)))

@@ -1,0 +1,164 @@
+"""The button *Run in this page*: the cells of a page run in the browser, and print what the book shows.
+
+ROSMINI_PYODIDE names the folder of npm's package `pyodide`: its files are sent in place of the same ones on jsDelivr.
+"""
+
+from mimetypes import guess_type
+
+import pytest
+
+from book.tools.pages import ASKS
+from book.tools.run_in_page import PAGES
+
+from ..conftest import nightly
+from .test_book_pages import SETTLES, violations_of
+
+pytestmark = pytest.mark.browser
+
+SITE = "http://book.test/"
+CDN = ASKS["run-worker.js"]
+FIRST, *OTHERS = PAGES
+
+TEXTS = """Array.from(document.querySelectorAll(".bd-article .cell"), (cell) =>
+    Array.from(cell.querySelectorAll(".output > .highlight > pre"), (text) => text.textContent.trimEnd()))"""
+
+
+@pytest.fixture(scope="module")
+def served(chromium, book_html):
+    """Open a page of the book as from a server; returns it and the addresses that it asks.
+
+    The files of Pyodide come from the folder `pyodide`, if given; `change(name, body)` returns the body that is sent.
+    """
+    contexts = []
+
+    def open_page(name, pyodide=None, change=lambda _, body: body):
+        def send(route):
+            file = pyodide / route.request.url.removeprefix(CDN)
+            kind = guess_type(file.name)[0] or "application/octet-stream"
+            headers = {"Access-Control-Allow-Origin": "*", "Content-Type": kind}
+            route.fulfill(body=change(file.name, file.read_bytes()), headers=headers)
+
+        def send_page(route):
+            route.fulfill(path=book_html / route.request.url.removeprefix(SITE).partition("?")[0])
+
+        context = chromium.new_context(viewport={"width": 1280, "height": 800})
+        contexts.append(context)
+        asked = []
+        context.on("request", lambda request: asked.append(request.url))
+        context.route("**/*", lambda route: route.abort())
+        context.route(f"{SITE}**", send_page)
+        if pyodide:
+            context.route(f"{CDN}**", send)
+        page = context.new_page()
+        page.goto(f"{SITE}{name}.html")
+        return page, asked
+
+    yield open_page
+    for context in contexts:
+        context.close()
+
+
+def press(page, name="Run in this page"):
+    page.locator(".run-panel").get_by_role("button", name=name).click()
+
+
+def wait_for(page, text):
+    page.locator(".run-panel").get_by_role("status").get_by_text(text).wait_for()
+
+
+def last_cell(page, source):
+    """Give the last cell this code and start it."""
+    cell = page.locator(".bd-article .cell").last
+    cell.get_by_label("Code of cell").fill(source)
+    cell.get_by_role("button", name="Run").click()
+    return cell
+
+
+@pytest.fixture(scope="module")
+def running(served, pyodide):
+    """The first page, with Python."""
+    page, _ = served(FIRST, pyodide)
+    press(page)
+    wait_for(page, "Ready.")
+    return page
+
+
+@pytest.mark.parametrize("name", [FIRST, *nightly(*OTHERS)])
+def test_all_cells_of_a_page_print_what_the_book_shows(served, pyodide, name):
+    page, asked = served(name, pyodide)
+    stored = page.evaluate(TEXTS)
+    assert not [url for url in asked if "worker" in url or "packages" in url or not url.startswith(SITE)]
+    press(page)
+    wait_for(page, "Ready.")
+    press(page, "Run all")
+    wait_for(page, "Done.")
+    assert page.evaluate(TEXTS) == stored
+    assert page.locator(".run-differs").count() == 0
+    assert {url for url in asked if not url.startswith((SITE, CDN))} == {
+        url for url in asked if url.startswith("blob:" + SITE)
+    }
+
+
+def test_an_edited_cell_is_run_and_the_difference_is_marked(running):
+    cell = last_cell(running, "print('something else')")
+    cell.get_by_text("The text differs from the output that the book shows.").wait_for()
+    assert "something else" in cell.locator(".stream").inner_text()
+
+
+def test_input_asks_below_the_cell(running):
+    cell = last_cell(running, "print(input('Your name? ') + '!')")
+    cell.get_by_label("Your name?").fill("Ada")
+    cell.get_by_label("Your name?").press("Enter")
+    cell.get_by_text("Ada!").wait_for()
+
+
+@pytest.mark.parametrize("source", ["%load_ext rosmini\nimport rosmini\nrosmini.wait(1e9)", "input('Wait? ')"])
+def test_a_cell_that_waits_is_stopped(running, source):
+    cell = last_cell(running, source)
+    if "input" in source:
+        cell.get_by_label("Wait?").wait_for()
+    cell.get_by_role("button", name="Stop").click()
+    cell.get_by_text("KeyboardInterrupt").first.wait_for()
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_finds_nothing_on_a_page_that_runs(running, scheme):
+    running.emulate_media(color_scheme=scheme)
+    running.evaluate(SETTLES)
+    assert violations_of(running) == []
+
+
+def test_a_loop_that_never_waits_is_ended_by_restarting_python(running):
+    cell = last_cell(running, "while True: pass")
+    cell.get_by_role("button", name="Stop").click()
+    wait_for(running, "A loop that never waits ends only when Python is restarted.")
+    cell.get_by_role("button", name="Restart Python").click()
+    wait_for(running, "Python was restarted and all variables are gone. Ready.")
+    last_cell(running, "print(6 * 7)").get_by_text("42").wait_for()
+
+
+def test_a_file_of_pyodide_that_was_changed_is_refused(served, pyodide):
+    page, _ = served(FIRST, pyodide, change=lambda name, body: body + b" " * (name == "pyodide-lock.json"))
+    press(page)
+    wait_for(page, f"Python ended: {CDN}pyodide-lock.json could not be loaded, or its content has changed")
+
+
+def test_a_page_from_a_file_names_the_command_that_serves_the_book(book_html, tabs):
+    with tabs.open({"width": 390, "height": 844}) as (page, _):
+        page.goto((book_html / f"{FIRST}.html").as_uri())
+        press(page)
+        wait_for(page, "python -m http.server")
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
+def test_a_browser_that_cannot_suspend_python_is_told_so(served):
+    page, asked = served(FIRST)
+    page.evaluate("delete WebAssembly.Suspending")
+    press(page)
+    wait_for(page, "This browser cannot suspend Python")
+    assert all(url.startswith(SITE) for url in asked)
+
+
+def test_other_pages_have_no_button(book_html):
+    with_button = [path for path in book_html.rglob("*.html") if "run.js" in path.read_text(encoding="utf-8")]
+    assert {path.relative_to(book_html).with_suffix("").as_posix() for path in with_button} == set(PAGES)
