@@ -100,7 +100,7 @@ def _why(history: History, event: Event, depth: int) -> Why:
     steps = [_step(event)]
     while event.cause is not None:
         if len(steps) > depth:
-            return Why(tuple(steps), "and so on; --depth tells more")
+            return Why(tuple(steps), "and so on; --depth shows more")
         found = history.event(event.cause)
         if found is None:
             return Why(tuple(steps), "what led to that is no longer kept")
@@ -137,13 +137,13 @@ def _end(event: Event) -> str:
     if event.kind == "delivery":
         return f"and {event.who} published that before recording began, or it came over a wire"
     if not event.lane:
-        return f"and {event.who} did that because its time had come"
+        return f"and {event.who} did that at its scheduled time"
     if event.lane == "main":
-        return "and that was asked for here: by a cell, or the main program"
+        return "and a cell or the main program asked for that"
     own = event.lane.removeprefix(event.who).strip()
     if own.startswith("timer "):
         return f"and {event.who} did that because its {own} was due"
-    return f"and {event.who} did that in a program of its own, which no message or call had woken"
+    return f"and {event.who} did that in its own loop, and not because of a message or a call"
 
 
 def _heard(history: History, event: Event) -> tuple[Step, ...]:
