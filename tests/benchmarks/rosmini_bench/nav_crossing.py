@@ -129,7 +129,7 @@ def _run(graph: Graph, robots: int, seed: int) -> Crossing:
 
 def table(found: Iterable[Crossing]) -> Iterator[str]:
     """One line of Markdown for each number of robots."""
-    yield "| robots | runs | reached | 95% interval | contacts | the last one after | what went wrong |"
+    yield "| robots | runs | reached | 95% interval | contacts | all ended after | what went wrong |"
     yield "|---|---|---|---|---|---|---|"
     for robots, group in groupby(sorted(found, key=lambda one: (one.robots, one.seed)), lambda one: one.robots):
         runs = list(group)

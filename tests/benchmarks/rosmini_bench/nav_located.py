@@ -320,27 +320,27 @@ A robot counts as found if its pose is within 0.3 m of the truth for {HELD:.0f} 
 
 {{lost}}
 
-Why these? 10,000 particles in a house of 125 m² are about seven within half a metre and 20 degrees of the true pose.
-With a narrow `laser_sigma_hit` these seven are no likelier than places where a few walls fit by chance, and the filter
-converges there. With 0.8 they are likelier. `likelihood_field_prob` multiplies the beams instead of adding their cubes,
-so eight updates tell the places apart even with so wide a bell. `diff-corrected` spreads the copies of a particle
-further than `diff`, which takes a variance for a standard deviation.
+Why these? Of 10,000 particles in a house of 125 m², about seven are within half a metre and 20 degrees of the true
+pose. With a narrow `laser_sigma_hit` these seven are no likelier than those in places where a few walls fit by chance,
+and the filter converges in such a place. With 0.8 the seven are likelier. `likelihood_field_prob` multiplies the beams
+instead of adding their cubes, so eight updates distinguish the places even with such a wide bell curve.
+`diff-corrected` spreads the copies of a particle further than `diff`, which uses a variance as a standard deviation.
 
 `recovery_candidates` exists only in rosmini. The original draws random particles uniformly from the free cells. Here
 the scan chooses each of them from ten random poses, by its likelihood (*sensor resetting*, Lenser and Veloso 2000).
 Rows with *uniform* draw them as the original does.
 
 Robots that were not found mostly settled in the hall or in a corridor, turned by half a circle: both look the same from
-both ends.
+either end.
 """,
         "kidnapped": f"""
 ## amcl: a robot that was carried away
 
-After {CARRIED:.0f} s somebody sets the robot down elsewhere; its odometry does not notice. The parameters are those
-above. amcl adds random particles while the fast average of the likelihood is below the slow one, and begins both again
-after a resampling that used them. With a narrow bell the likelihood differs by powers of ten from scan to scan, so that
-only a few such moments occur in two minutes. With a wide bell it differs less, and the few random particles near the
-true pose win.
+After {CARRIED:.0f} s the robot is carried elsewhere, which its odometry does not notice. The parameters are those
+above. amcl adds random particles while the fast average of the likelihood is below the slow one, and resets both
+averages after a resampling that added some. With a narrow bell curve the likelihood differs by powers of ten from scan
+to scan, so there are only a few such moments in two minutes. With a wide one it differs less, and the few random
+particles near the true pose win.
 """,
         "gmapping": """
 ## gmapping
@@ -350,15 +350,16 @@ true pose win.
 odometry. Errors above 0.5 m lie at the right edge
 ```
 
-Errors are distances from the true path, aligned at its start. *Revisits* are pairs of scans over 60 scans apart taken
-within a metre; *precision* and *recall* are those of occupied cells, within two cells. `log_house` is a drive that the
-original gmapping was given, too: with its default parameters it was 0.105 m off, with revisits of 0.036 m, a precision
-of 0.80 and a recall of 0.73. *csail* is a log of a real robot, and its truth is the path that the original found; the
-original scores 0.046 m between neighbours and 0.070 m at revisits. *Ours* takes a scan every 0.2 m or 0.25 rad, and
-beams up to 3 m.
+Errors are distances from the true path, with both paths aligned at the start. *Revisits* are pairs of scans more than
+60 scans apart and less than a metre from each other; *precision* and *recall* are those of occupied cells, within two
+cells. `log_house` is a drive that we also gave to the original gmapping: with its default parameters it was 0.105 m
+off, with revisits of 0.036 m, a precision of 0.80 and a recall of 0.73. *csail* is a log of a real robot, and its truth
+is the path that the original found; the original scores 0.046 m between neighbours and 0.070 m at revisits. *Ours*
+takes a scan every 0.2 m or 0.25 rad, and beams up to 3 m.
 
-A beam's end counts here only if the cell before it is free. The original means to ask this but looks up another cell,
-so every end counts there. With this test csail is a little worse, and maps of the house are better, so it stays.
+In rosmini the end of a beam counts only if the cell before it is free. The original means to check this, but looks up
+another cell, so every end counts there. With the check csail is a little worse, but maps of the house are better, so it
+stays.
 
 *Office* and *maze* are drives of 240 s past people, on which nothing was tuned. All walls count, seen or not, so the
 recall is low for any mapper.
@@ -368,11 +369,11 @@ recall is low for any mapper.
 
 Errors are root mean squares over drives of 120 s in the house. Rows differ in how fast the robot turns, and in whether
 the laser sweeps while it turns. `log_house` turns at 1.2 rad/s: hector_mapping is lost there without odometry, and so
-is the original, because a scan that is turned by 14 degrees is further away than its matcher can climb. With odometry
-as the start value the original is 0.021 m off.
+is the original, because its matcher cannot correct a scan that is turned by 14 degrees. With odometry as the start
+value the original is 0.021 m off.
 
-The robot stands still for a second before it drives off. In rows with *off at once* it does not. Then the first scan
-may be taken in a turn and be bent by the sweep; the whole map is turned by that, and so is the path.
+The robot stands still for a second before it drives off, except in rows with *off at once*. There the first scan may be
+taken during a turn, and the sweep distorts it; this rotates the whole map, and the path with it.
 """,
     }
 )

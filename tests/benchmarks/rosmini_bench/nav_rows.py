@@ -198,25 +198,26 @@ and the commit of each. Chapters that quote a number link to its row here.
 the bar its 95% interval
 ```
 
-A burger was sent to goals drawn at random, at least 3 m away, with any heading. Around its start and its goal a disc of
-0.20 m has room. The parameter files are the same in all worlds: those of `turtlebot3_navigation`, with
-`careful:=true`, which loads `param/careful.yaml` after them. The laser turns five times a second, measures while the
-robot moves, and is noisy. The robot's pose comes from the simulator (`fake_localization`) or from `amcl`.
+A burger was sent to goals drawn at random, at least 3 m away, with any heading. Its start and
+its goal have room for a disc with a radius of 0.20 m. The parameter files are the same in all worlds: those of
+`turtlebot3_navigation`, with `careful:=true`, which loads `param/careful.yaml` after them. The laser turns five times a
+second, measures while the robot moves, and is noisy. The robot's pose comes from the simulator
+(`fake_localization`) or from `amcl`.
 
 How to read the table:
 
 - **Reached**: `move_base` reported `SUCCEEDED`, and the true pose was within the goal tolerance. With `amcl`, whose
   estimate has an error, 0.25 m and 0.3 rad are allowed.
-- **95% interval**: Wilson's interval for the share. If the intervals of two rows overlap, the difference may be due to
-  chance.
-- **Contacts**: the number of goals on the way to which the robot hit something.
+- **95% interval**: Wilson's interval for the share. If the intervals of two rows overlap, chance may explain the
+  difference.
+- **Contacts**: the number of drives in which the robot hit something.
 - **Length**: the driven path divided by the shortest path that keeps 0.15 m from everything in the map. **Time**: the
-  time divided by that of the shortest path at full speed. Each cell shows the median of the reached goals, and in
-  brackets the 95th percentile.
+  time that the drive took, divided by that of the shortest path at full speed. Each cell shows the median of the
+  reached goals, and in brackets the 95th percentile.
 - **Off**: the median of the true distance from the goal at the end.
 
-The parameters of `careful.yaml` were chosen while we looked at the failures of seed 7. We ran seed 23 afterwards,
-and changed nothing for it. Rows of fewer than {LEAST} goals are only in the file.
+We chose the parameters of `careful.yaml` by looking at the failures of seed 7. We ran seed 23 afterwards, and changed
+nothing for it. Rows of fewer than {LEAST} goals are only in the file.
 `PYTHONPATH=tests/benchmarks uv run python -m rosmini_bench.nav_study FILE house=0-199` drives more.
 """
 
@@ -239,29 +240,29 @@ cylinder when the laser sees it. In narrow gaps the robot gives up without touch
 EXPLORING = """## Exploring
 
 ```{{drawing}} exploring
-<a id="chart-exploring"></a>Figure 3: What share of the reachable floor each run has seen: a small point for each run,
-a large one for the median
+<a id="chart-exploring"></a>Figure 3: The share of the reachable floor that each run has seen: a small point for each
+run, a large one for the median
 ```
 
 Both explorers use gmapping with 30 particles, its default, and `careful:=true`. explore_lite gives up a frontier after
-120 s without progress, because in the house a frontier may be close in a straight line and far to drive. *Seen* is the
+120 s without progress, because in the house a frontier may be close in a straight line but far to drive. *Seen* is the
 share of the cells that the robot can reach and that the final map knows: the median, and in brackets the lowest. *Saw
 all* counts the runs that saw {good} or more.
 
 In the house and the maze {full} runs saw {good} or more, and {ended} ended by themselves.
 
-In the office both explorers leave rooms out: the best run saw {most}, a quarter saw less than {quarter}, and the worst
+In the office both explorers miss rooms: the best run saw {most}, a quarter saw less than {quarter}, and the worst
 {least}. Three rooms have doors that open and shut. A robot that passes a shut door maps a wall there, and a wall is not
 a frontier. The wall often stays in the map when the door opens: gmapping ignores a beam that hits nothing, and through
 an open door many beams hit nothing, because the room is deeper than the laser's range. Walking people in a doorway
-have the same effect as a shut door. Neither explorer looks at a wall a second time, and nor do the originals.
+have the same effect as a shut door. Neither explorer looks at a wall a second time, nor do the originals.
 """
 
 CROSSING = """## Robots that cross one another's paths
 
-Burgers in the house, each with its own `amcl`, are sent at the same moment to the start of another one. A contact is
-charged to each robot that moved faster than 0.02 m/s when it began. Each planner treats the other robots as stationary
-obstacles, at the places where the last scan saw them.
+Several burgers drive in the house, each with its own `amcl`. All start at the same moment, each towards the start of
+another one. A contact counts for each robot that was moving faster than 0.02 m/s when the contact began. Each planner
+treats the other robots as obstacles that stay where the last scan saw them.
 
 The robots use the careful files: `multi_turtlebot3_navigation.launch` sets `careful:=true`. We chose this with the
 seeds 0 to 49 of the table. In the same runs without *careful*, 197 of 200 goals were reached, with 13 contacts in three
@@ -285,8 +286,8 @@ with what `careful.yaml` changes:
   of a chair. The local planner checks the whole footprint and refuses to drive there. *Careful* plans for a disc.
 - **No way back.** A robot whose front is 3 cm from an obstacle cannot drive forward, and cannot turn either. *Careful*
   allows -0.1 m/s, as ROBOTIS's files do.
-- **Walking people.** They came so close that their cells overlapped the footprint, and they waited for the robot,
-  which could not leave. In the simulator they now keep 0.3 m away, and turn back after 5 s.
+- **Walking people.** They came so close that their cells in the costmap overlapped the footprint. Then they waited for
+  the robot, which could not leave. In the simulator they now keep 0.3 m away, and turn back after 5 s.
 - **Local costmap.** The local planner is drawn to the point where the plan leaves its costmap. In a window of 3 m that
   point may lie behind a wall that the plan goes around, so the robot turned on the spot. *Careful* uses 2 m.
 - **Ghosts.** A beam that hits nothing clears nothing unless `inf_is_valid` is set, so people leave a trail of obstacles
@@ -296,11 +297,11 @@ with what `careful.yaml` changes:
 - **Cells.** In a costmap with cells of 5 cm, an outline may be 5 cm too wide. Noise then marks a cell under the robot,
   and every way out is refused. *Careful* uses 2.5 cm in the local costmap.
 - **First pose.** `amcl` gets the first pose to within about 0.5 m. In the entrance of the house the scan fits nearly
-  as well 0.8 m further on, and the published mean lies between the two.
+  as well 0.8 m further on, and the published mean lies between the two poses.
 - **Frontiers.** explore_lite measures progress in a straight line, so it gives up a frontier while the robot drives
   around a wall to reach it.
-- **Not explained.** In the maze, two robots count as oscillating although their way is free. In the office, a few
-  robots start in a corner from which nearly every sampled velocity would touch something.
+- **Not explained.** In the maze, two robots count as oscillating although their path is clear. In the office, a few
+  robots start in a corner in which nearly every sampled velocity would cause a contact.
 
 `carrot_planner` does not plan around walls: it drives straight to the last free place in front of them.
 """
