@@ -189,7 +189,9 @@ INTRODUCTION = f"""# Navigation in figures
 
 How often does the Navigation Stack of this book bring a robot to its goal? These charts and tables are made from
 {{}} drives in worlds of the simulator, which are stored in `assets/benchmarks/navigation.jsonl` with the seed
-and the commit of each. Chapters that quote a number link to its row here.
+and the commit of each. Chapters that quote a number link to its row here. A later commit may round the last digit of
+a computation differently. A drive with the same seed then takes another course after some time, so repeat many drives,
+not one, to check a figure.
 
 ## Goals in the house, the maze and the office
 
