@@ -1,4 +1,4 @@
-"""For pytest: the environment in which notebooks and tests run.
+"""For pytest: the environment in which notebooks and tests run, and a measurement of the notebooks (`--costs`).
 
 Notebooks run with the display form of the book, as their stored outputs do. Nothing sees the variables of
 a ROS that its user has set up (``source /opt/ros/noetic/setup.bash``, ``export TURTLEBOT3_MODEL=waffle``), so that
@@ -12,10 +12,12 @@ import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from pathlib import Path
 from typing import Any
 
 import pytest
 
+from book.tools import costs
 from rosmini.viz.embed import BOOK, VARIABLE
 
 OF_ROS = ("ROS_", "ROSLISP_", "TURTLEBOT3_")
@@ -37,11 +39,18 @@ def starting_twice(start: Callable[..., Any]) -> Callable[..., Any]:
     return started
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the option `--costs`."""
+    parser.addoption("--costs", metavar="FILE", help="write time, memory and size of each notebook to FILE")
+
+
 def pytest_configure(config: pytest.Config) -> None:
     """Set up the environment that the tests' processes inherit."""
     with suppress(ImportError):
         kernel = importlib.import_module("nbval.kernel")
         vars(kernel)["start_new_kernel"] = starting_twice(kernel.start_new_kernel)
+    if config.getoption("costs") and not hasattr(config, "workerinput"):
+        config.pluginmanager.register(CostWriter(config))
     for name in [name for name in os.environ if name.startswith(OF_ROS)]:
         del os.environ[name]
     # Hundreds of processes start here, and a kernel that has to compile all modules takes three times as long.
@@ -65,3 +74,31 @@ def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
             del os.environ[VARIABLE]
         else:
             os.environ[VARIABLE] = before
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> None:
+    """Measure a notebook's kernel after the last cell, before nbval stops it."""
+    manager = getattr(getattr(item.parent, "kernel", None), "km", None)
+    if item.config.getoption("costs") and manager and (nextitem is None or nextitem.parent is not item.parent):
+        item.user_properties.append(("cost", costs.of_process(manager.provisioner.pid)))
+
+
+class CostWriter:
+    """Collects the measured costs of notebooks, in the process that receives all reports, and writes them."""
+
+    def __init__(self, config: pytest.Config) -> None:
+        self._file, self._root = Path(config.getoption("costs")), config.rootpath
+        self._chapters: dict[str, dict[str, float]] = {}
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """Keep the cost that comes with the report of a notebook's end."""
+        properties: dict[str, Any] = dict(report.user_properties)
+        if report.when == "teardown" and (cost := properties.get("cost")):
+            name = report.nodeid.partition(".ipynb::")[0]
+            self._chapters[name] = costs.of_files(self._root, name) | cost
+
+    def pytest_sessionfinish(self, exitstatus: int) -> None:
+        """Write the file if all tests have passed."""
+        if exitstatus == pytest.ExitCode.OK:
+            costs.write(self._file, self._chapters)

@@ -1,4 +1,4 @@
-"""Pages that the build makes: parameters of nodes and plugins, the public Python API, and differences from ROS."""
+"""Pages that the build makes: parameters, the public Python API, differences from ROS, and what chapters cost."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from docutils import nodes
 from docutils.statemachine import StringList
 from sphinx.util.docutils import SphinxDirective
 
+from book.tools import costs
 from rosmini.core.parameters import Parameters
 
 if TYPE_CHECKING:
@@ -129,6 +130,36 @@ class FidelityTables(Generated):
     def run(self) -> list[nodes.Node]:
         """Return the content; the page is built again when a row changes."""
         self.env.note_dependency(str(FIDELITY))
+        return super().run()
+
+
+COLUMNS = {
+    "cells": "code cells",
+    "cpu": "processor [s]",
+    "memory": "memory [MB]",
+    "notebook": "notebook [kB]",
+    "page": "page [kB]",
+}
+
+
+class CostTable(Generated):
+    """Time, memory and size of each chapter, in the order of the book."""
+
+    def lines(self) -> Iterator[str]:
+        """Return what was measured, and the table."""
+        run, chapters = costs.read()
+        toc = (costs.CHECKOUT / "book" / "_toc.yml").read_text(encoding="utf-8")
+        yield from (f"Measured on {run['date']} at commit `{run['commit']}`: {run['machine']}.", "")
+        yield f"| chapter | {' | '.join(COLUMNS.values())} |"
+        yield f"|---|{'---:|' * len(COLUMNS)}"
+        for name in re.findall(r"file: (notebooks/\S+)", toc):
+            if cost := chapters.get(name):
+                yield f"| {{doc}}`/{name}` | {' | '.join(str(cost.get(key, '')) for key in COLUMNS)} |"
+        yield ""
+
+    def run(self) -> list[nodes.Node]:
+        """Return the content; the page is built again after a measurement."""
+        self.env.note_dependency(str(costs.FILE))
         return super().run()
 
 

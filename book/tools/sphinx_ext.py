@@ -13,8 +13,9 @@
 - Chapters have the number of their part and of their place in it, from `_toc.yml` alone.
 - The directive `drawing` puts a drawing of `book/static/drawings` into a prose page, with a caption.
 - The directive `stored` shows a figure that a notebook has stored, such as the pad on the cover.
-- The substitutions `repository_copy` and `reading_hours` are computed: the first from the one setting with the
-  repository's address (`repository.url` in `_config.yml`), the second from the notebooks.
+- The substitutions `repository_copy`, `reading_hours`, `largest_chapter` and `largest_memory` are computed: the first
+  from the one setting with the repository's address (`repository.url` in `_config.yml`), the second from the
+  notebooks, the last two from the measurement of the chapters.
 - The first use of a term leads to the glossary, and the index is collected (`book.tools.subject_index`).
 - The directive `progress-list` lists pages and exercises to tick (`book.tools.progress`).
 - Some pages have the button *Run in this page* (`book.tools.run_in_page`).
@@ -38,7 +39,7 @@ from sphinx import addnodes
 from sphinx.transforms import SphinxTransform
 from sphinx.util.docutils import SphinxDirective
 
-from book.tools import notebooks, progress, reading, reference, run_in_page, subject_index
+from book.tools import costs, notebooks, progress, reading, reference, run_in_page, subject_index
 from book.tools.captions import CAPTION
 from book.tools.lexer import CellLexer
 from book.tools.pages import VIEWER_CALL
@@ -362,9 +363,12 @@ def substitute(app: Sphinx, config: Config) -> None:
         config.html_theme_options[button] = bool(url)
     chapters = sorted(Path(app.srcdir, "notebooks").rglob("*.ipynb"))
     minutes = sum(reading.minutes(notebooks.read(path)) for path in chapters)
+    largest = costs.largest()
     config.myst_substitutions |= {
         "repository_copy": f"[a copy of the repository]({url})" if url else "a copy of this repository",
         "reading_hours": str(round(minutes / 60)),
+        "largest_chapter": f"{{doc}}`/{largest['chapter']}`",
+        "largest_memory": str(largest["memory"]),
     }
 
 
@@ -442,6 +446,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("parameters", reference.ParameterTables)
     app.add_directive("interface", reference.Interface)
     app.add_directive("fidelity", reference.FidelityTables)
+    app.add_directive("costs", reference.CostTable)
     for language in ("python", "ipython3"):  # of fences, and of cells
         app.add_lexer(language, CellLexer)
     app.connect("config-inited", substitute)
