@@ -299,3 +299,12 @@ def test_a_verdict_is_the_same_in_each_run(found):
     for mistake in mistakes_of(found):
         first, second = (found.grade(mistake()).text for _ in range(2))
         assert first == second
+
+
+def test_a_check_that_lacks_numpy_gives_no_verdict():
+    @exercise("drive", praise="")
+    def drive(_):
+        raise ModuleNotFoundError("No module named 'numpy'", name="numpy")
+
+    with pytest.raises(checks.Unavailable, match="rosmini lab"):
+        drive.grade(1)

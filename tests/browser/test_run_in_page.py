@@ -7,8 +7,10 @@ from mimetypes import guess_type
 
 import pytest
 
+from book.tools import notebooks
 from book.tools.pages import ASKS
 from book.tools.run_in_page import PAGES
+from book.tools.solutions import checks, solved
 
 from ..conftest import nightly
 from .test_book_pages import SETTLES, violations_of
@@ -97,6 +99,21 @@ def test_all_cells_of_a_page_print_what_the_book_shows(served, pyodide, name):
     assert {url for url in asked if not url.startswith((SITE, CDN))} == {
         url for url in asked if url.startswith("blob:" + SITE)
     }
+
+
+@pytest.mark.nightly
+def test_the_solutions_of_a_page_pass_their_checks(served, pyodide, root):
+    chapter = notebooks.read(root / f"{FIRST}.ipynb")
+    sources = [cell.source for cell in solved(chapter).cells if cell.cell_type == "code"]
+    page, _ = served(FIRST, pyodide)
+    press(page)
+    wait_for(page, "Ready.")
+    for editor, source in zip(page.locator(".run-editor").all(), sources, strict=True):
+        editor.evaluate("(editor, source) => { editor.value = source; }", source)
+    press(page, "Run all")
+    wait_for(page, "Done.")
+    text = page.locator(".bd-article").inner_text()
+    assert [exercise for exercise in checks(chapter) if f"Exercise {exercise}: right." not in text] == []
 
 
 def test_an_edited_cell_is_run_and_the_difference_is_marked(running):
