@@ -23,6 +23,13 @@ FIRST = PAGES[0]
 TEXTS = """Array.from(document.querySelectorAll(".bd-article .cell"), (cell) =>
     Array.from(cell.querySelectorAll(".output > .highlight > pre"), (text) => text.textContent.trimEnd()))"""
 
+ENDLESS_RUN = """
+from rosmini import Graph
+graph = Graph()
+graph.node("clock").timer(0.001, lambda event: None)
+graph.run(1e9)
+"""
+
 
 @pytest.fixture(scope="module")
 def served(chromium, book_html):
@@ -129,7 +136,7 @@ def test_input_asks_below_the_cell(running):
     cell.get_by_text("Ada!").wait_for()
 
 
-@pytest.mark.parametrize("source", ["%load_ext rosmini\nimport rosmini\nrosmini.wait(1e9)", "input('Wait? ')"])
+@pytest.mark.parametrize("source", [ENDLESS_RUN, "input('Wait? ')"], ids=["run", "input"])
 def test_a_cell_that_waits_is_stopped(running, source):
     cell = last_cell(running, source)
     if "input" in source:
