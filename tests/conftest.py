@@ -137,12 +137,24 @@ def left_for_nightly(config: pytest.Config, item: pytest.Item) -> bool:
     return item.path not in [path.resolve() for path in named]
 
 
+def mixed(items: list[pytest.Item]) -> list[pytest.Item]:
+    """Spread the chapters over the test files: chapters compute all the time, while a third of the tests wait."""
+    files: dict[Path, list[pytest.Item]] = {}
+    for item in items:
+        files.setdefault(item.path, []).append(item)
+    chapters = [path for path in files if path.suffix == ".ipynb"]
+    places = {path: place for place, path in enumerate(path for path in files if path.suffix != ".ipynb")}
+    places |= {path: i * len(places) / len(chapters) for i, path in enumerate(chapters)}
+    return [item for path in sorted(places, key=places.__getitem__) for item in files[path]]
+
+
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Leave tests for the night; for `-m processes` mark those that have to do with processes, signals or threads."""
     left = {item for item in items if left_for_nightly(config, item)}
     if left:
         config.hook.pytest_deselected(items=[*left])
         items[:] = [item for item in items if item not in left]
+    items[:] = mixed(items)
     if "processes" not in config.getoption("markexpr"):
         return
     known: dict[Any, bool] = {}
