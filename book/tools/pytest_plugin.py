@@ -40,8 +40,11 @@ def starting_twice(start: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add the option `--costs`."""
-    parser.addoption("--costs", metavar="FILE", help="write time, memory and size of each notebook to FILE")
+    """Add the option `--costs`. CI sets the variable instead, because it runs the README's command unchanged."""
+    file = os.environ.pop("ROSMINI_COSTS", None)  # not for the pytests that tests start
+    parser.addoption(
+        "--costs", metavar="FILE", default=file, help="write time, memory and size of each notebook to FILE"
+    )
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -80,7 +83,7 @@ def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
 def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> None:
     """Measure a notebook's kernel after the last cell, before nbval stops it."""
     manager = getattr(getattr(item.parent, "kernel", None), "km", None)
-    if item.config.getoption("costs") and manager and (nextitem is None or nextitem.parent is not item.parent):
+    if manager and (nextitem is None or nextitem.parent is not item.parent):
         item.user_properties.append(("cost", costs.of_process(manager.provisioner.pid)))
 
 
