@@ -88,7 +88,7 @@ def bashrc(answer: Any) -> None:
 CAUSES = {
     "Ada": ("master", "which address was called here?"),
     "Ben": ("clock", "his transforms arrive, but are a minute old"),
-    "Cem": ("address", "the Master knows the node, so what is missing in the list?"),
+    "Cem": ("address", "the Master knows the node, so what is wrong with its entry?"),
     "Dea": ("name", "a node ends when another one starts with the same ..."),
 }
 

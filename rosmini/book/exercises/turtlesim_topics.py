@@ -26,7 +26,7 @@ def corner(answer: Any) -> Any:
     expect_type(answer, str, "The keys are", "a string")
     keys = "".join(answer.split()).upper()
     wrong = sorted(set(keys) - set(KEYS))
-    expect(not wrong, f"{' and '.join(wrong)} is not one of the keys.", "use A up, B down, C right, D left")
+    expect(not wrong, f"Not one of the keys: {', '.join(wrong)}.", "use A up, B down, C right, D left")
     expect(len(keys) <= MOST_KEYS, f"These are {len(keys)} keys; six are enough.")
     with TurtleTrial() as trial:
         publisher = trial.graph.node("teleop_turtle").publisher("turtle1/cmd_vel", Twist)
@@ -44,7 +44,7 @@ def corner(answer: Any) -> Any:
         expect(
             turtle.x < 2.5 and turtle.y > 8.5,
             f"The turtle ends at ({turtle.x:.1f}, {turtle.y:.1f}).",
-            "the corner is six metres away, in the direction of 135 degrees",
+            "the corner is six metres away, at 135 degrees",
         )
         return trial.view()
 
