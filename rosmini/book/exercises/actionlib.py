@@ -210,7 +210,7 @@ def return_to_sender(answer: Script) -> Any:
             )
             expect(
                 abs(places[-1]) < 0.12,
-                f"{case} the robot ended {places[-1]:.2f} m from its start.",
+                f"{case} the robot ended {places[-1]:.2f} m from where it started.",
                 "the second goal is -result.travelled; after cancel_goal, wait for the result",
             )
             trial.expect_no_errors()

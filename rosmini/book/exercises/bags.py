@@ -103,7 +103,7 @@ DRIVES = (
 """Drives of parts: the speed and the turn, the interval between commands [s], and the number of commands."""
 
 
-@exercise("way_back", praise="Twice the robot was driven away, and twice it came back, tail first.")
+@exercise("way_back", praise="Twice the robot was driven away, and twice it came back, in reverse.")
 def way_back(answer: Script) -> Any:
     """A node that drives the robot back along a recorded drive."""
     return [_comes_back(answer, drive) for drive in DRIVES][-1]
@@ -135,7 +135,7 @@ def _comes_back(answer: Script, drive: Iterable[tuple[tuple[float, float], float
         turned = abs(math.remainder(back[2] - start[2], math.tau))
         expect(
             left < 0.15 and turned < 0.45,
-            f"It was driven {far:.2f} m away, and your node left it {left:.2f} m from its start, turned by "
+            f"It was driven {far:.2f} m away, and your node left it {left:.2f} m from where it started, turned by "
             f"{math.degrees(turned):.0f} degrees.",
             "the last command comes first, with both speeds negative, and lasts as long as it did in the bag",
         )

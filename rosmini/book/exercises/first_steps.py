@@ -9,7 +9,7 @@ from rosmini.book.checks import Script, exercise
 from .nodes_and_master import stops_from
 
 
-@exercise("first_stop", praise="Your robot came near the wall and stopped, from two different starts.")
+@exercise("first_stop", praise="From two different starting points, your robot came near the wall and stopped.")
 def stop(answer: Script) -> Any:
     """The robot drives up to the wall and stops in front of it."""
     stops_from(answer, 1.2)

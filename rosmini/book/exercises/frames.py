@@ -136,7 +136,7 @@ MOUNT = (0.1, 0.0, 0.3)
 """Position of the laser in base_link [m]."""
 
 
-@exercise("upside_down", praise="The robot turned to the nearest thing, although its laser takes left for right.")
+@exercise("upside_down", praise="The robot turned to the nearest object, although its laser takes left for right.")
 def upside_down(answer: Script) -> Any:
     """A static transform turns a laser about its x axis, and a robot faces what the laser sees."""
     with Trial("room", "_x:=0.4", "_y:=1.0") as trial:

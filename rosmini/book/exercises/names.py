@@ -90,7 +90,7 @@ def arguments(answer: Any) -> Any:
 # ---- report: one report for all ----
 
 
-@exercise("report", praise="A third robot needs one more start of your script, and no change.", gaps=2)
+@exercise("report", praise="For a third robot, start your script once more, without a change.", gaps=2)
 def report(answer: Script) -> Any:
     """One node for each robot, which reads that robot's scans and writes to a common topic."""
     got: list[str] = []

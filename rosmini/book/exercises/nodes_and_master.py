@@ -47,7 +47,7 @@ def distance(trial: Trial, seconds: float) -> float:
 # ---- stop: stop before the wall ----
 
 
-@exercise("stop", praise="From two different starts, it came close to the wall and stopped there.")
+@exercise("stop", praise="From two different starting points, it came close to the wall and stopped there.")
 def stop(answer: Script) -> Any:
     """The robot drives up to a wall and stops in front of it, wherever it starts."""
     stops_from(answer, 1.2)
@@ -78,7 +78,7 @@ def stops_from(answer: Script, start: float) -> Any:
         expect(
             moved < 0.01,
             "The robot is still driving, long after it should have reached the wall.",
-            "publish a command of zero to stop it",
+            "publish a zero command to stop it",
         )
         expect(
             gap < NEAR_M + 0.01,
@@ -183,7 +183,7 @@ def referee(answer: Script) -> Any:
         left = [name for name in strangers if f"/{name}" in there]
         expect(
             not left,
-            f"Other nodes than /driver still publish commands: /{', /'.join(left)}.",
+            f"Nodes other than /driver still publish commands: /{', /'.join(left)}.",
             "ask the Master for the publishers of /cmd_vel, look up the address of each, and call shutdown there",
         )
         trial.run(4.0)

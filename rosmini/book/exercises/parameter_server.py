@@ -75,7 +75,7 @@ def paused(answer: Script) -> Any:
             expect(
                 len(got) >= 38,
                 f"While /paused {said}, it sends fewer than ten commands a second.",
-                "publish in each turn",
+                "publish each time round the loop",
             )
             expect(
                 all(math.isclose(sent, speed, abs_tol=1e-9) for sent in got),
@@ -147,7 +147,7 @@ def measured(answer: Script) -> Any:
         gone = [name for name in ("name", "wheel/separation") if not boss.has_param(f"/robot/{name}")]
         expect(
             not gone,
-            f"Not there any more: /robot/{', /robot/'.join(gone)}.",
+            f"No longer set: /robot/{', /robot/'.join(gone)}.",
             "set_param with a dictionary replaces the namespace: set each value by its full name",
         )
         expect(found == MERGED, f"/robot is {found}, not {MERGED}.", "a list is one value; a dictionary is not")

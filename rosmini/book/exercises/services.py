@@ -27,7 +27,7 @@ def call(trial: Trial, name: str, kind: Any) -> Any:
         response = asker.service_client(name, kind)()
     except ServiceException as error:
         trial.expect_no_errors()
-        expect(False, f"The call of /{name} failed: {error}", "the handler must return a response")
+        expect(False, f"The call to /{name} failed: {error}", "the handler must return a response")
     expect(
         trial.graph.now().to_sec() - before < 0.1,
         f"/{name} does not answer at once.",
@@ -64,14 +64,14 @@ def trip(answer: Script) -> Any:
             drive(trial, speed, seconds)
             response = call(trial, "trip", Trigger)
             trial.expect_no_errors()
-            expect(response.success, "The response of /trip has success False.", "TriggerResponse(True, message)")
+            expect(response.success, "In the response of /trip, success is False.", "TriggerResponse(True, message)")
             try:
                 metres = float(response.message)
             except ValueError:
                 metres = -1.0
             expect(
                 response.message == f"{metres:.2f}",
-                f"/trip answers {response.message!r}, not a number with two decimals.",
+                f"/trip answers {response.message!r}, not a number with two decimal places.",
                 'f"{metres:.2f}" writes it',
             )
             expect(
@@ -121,10 +121,10 @@ def ask_first(answer: Script) -> Any:
             trial.run(14.0)
             moved = trial.robot.truth()[0] - start
             if drives:
-                expect(moved > 0.5, f"{case}, the robot drove {moved:.2f} m.", "is_open must return True then")
+                expect(moved > 0.5, f"{case}, the robot drove {moved:.2f} m.", "is_open must then return True")
                 expect(moved < 1.3, f"{case}, the robot drove {moved:.2f} m, not 1 m.", "keep the loop of the stub")
             else:
-                expect(moved < 0.05, f"{case}, the robot drove {moved:.2f} m.", "is_open must return False then")
+                expect(moved < 0.05, f"{case}, the robot drove {moved:.2f} m.", "is_open must then return False")
             view = trial.view()
     return view
 

@@ -37,7 +37,7 @@ def brake_first(answer: Script) -> Any:
             expect(moved < 0.01, "The robot did not stop.", "send a zero command, too")
             expect(
                 0.3 <= gap <= 0.55,
-                f"The robot stopped {gap:.2f} m before the wall, not between 0.3 and 0.55 m.",
+                f"The robot stopped {gap:.2f} m from the wall, not between 0.3 and 0.55 m.",
                 "stop if something ahead is nearer than 0.5 m",
             )
             expect(

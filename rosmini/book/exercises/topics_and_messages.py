@@ -20,7 +20,7 @@ from rosmini.msgs.std_msgs.msg import Bool
 STARTS = (("arena", "_x:=0.0", "_y:=1.2", "_yaw:=0.4"), ("room", "_x:=0.4", "_y:=0.2", "_yaw:=2.0"))
 
 
-@exercise("face", praise="From two starts, it turned to the nearest thing and stopped there.")
+@exercise("face", praise="From two starting points, it turned to the nearest object and stopped there.")
 def face(answer: Script) -> Any:
     """The robot turns on the spot until the smallest range is straight ahead."""
     return [_faces(answer, *start) for start in STARTS][-1]
@@ -46,7 +46,7 @@ def _faces(answer: Script, world: str, *start: str) -> Any:
         expect(
             sum(abs(now - last) > 0.01 for last, now in pairwise(headings)) <= 3,  # the laser errs
             "The robot is still turning after 40 s.",
-            "the nearest beam varies by 10 with the laser's errors: within 10 degrees publish a command of zero",
+            "the nearest beam varies by 10 with the laser's errors: within 10 degrees publish a zero command",
         )
         ranges = np.mean([scan.ranges for scan in scans], axis=0)  # the errors of a single scan hide the nearest beam
         beam = int(ranges.argmin())
@@ -54,7 +54,7 @@ def _faces(answer: Script, world: str, *start: str) -> Any:
         side = "left" if beam < 180 else "right"
         expect(
             angle <= 12,
-            f"The robot stopped, and the nearest thing is {angle} degrees to the {side}.",
+            f"The robot stopped, but the nearest object is {angle} degrees to the {side}.",
             "turn left while the nearest beam is one of 1 to 180, and right otherwise",
         )
         return trial.view()
@@ -66,7 +66,7 @@ LATE_S = (0.0, 0.3, 2.0, 0.7, 0.0)
 """Ages of the commands [s]: those over 0.5 s are too old."""
 
 
-@exercise("fresh", praise="Late commands stop the robot, so it never obeys an operator who saw another place.")
+@exercise("fresh", praise="Late commands stop the robot, so it never acts on an outdated one.")
 def fresh(answer: Script) -> Any:
     """The node passes stamped commands on, and stops the robot if one is too old."""
     got: list[tuple[float, float]] = []
@@ -115,8 +115,8 @@ def blocked(answer: Script) -> Any:
         expect(early, "It published nothing on /blocked.", "the publisher has the type Bool and the name blocked")
         expect(
             early[0] is False,
-            "It says that the way is blocked, and the wall is 1.8 m away.",
-            "the way is blocked if scan.ranges[0] is less than 0.5",
+            "It says that the path is blocked, but the wall is 1.8 m away.",
+            "the path is blocked if scan.ranges[0] is less than 0.5",
         )
         for _ in range(75):
             command = Twist()
@@ -125,7 +125,7 @@ def blocked(answer: Script) -> Any:
             trial.run(0.1)
         wheels.publish(Twist())
         trial.run(1.0)
-        expect(early[-1] is True, "The wall is 0.3 m ahead, and it says that the way is free.", "use scan.ranges[0]")
+        expect(early[-1] is True, "The wall is 0.3 m ahead, but it says that the path is free.", "use scan.ranges[0]")
         expect(
             early == [False, True],
             f"It published {len(early)} times while the state changed once.",
@@ -168,25 +168,27 @@ def priority(answer: Script) -> Any:
 
         expect(
             send(False, 20) == [ahead] * 20,
-            "While nobody held the joystick, it did not pass on every command of the navigation.",
-            "without any command of the joystick, on_navigation publishes each command",
+            "While nobody held the joystick, it did not pass on every command from the navigation.",
+            "without any command from the joystick, on_navigation publishes each command",
         )
         held = send(True, 20)
         passed = [command for command in held if command == turn]
-        expect(len(passed) == 20, f"Of 20 commands of the joystick it passed on {len(passed)}.", "publish each of them")
+        expect(
+            len(passed) == 20, f"Of 20 commands from the joystick it passed on {len(passed)}.", "publish each of them"
+        )
         expect(
             held.count(ahead) <= 1,
-            "It passed on commands of the navigation while somebody held the joystick.",
+            "It passed on commands from the navigation while somebody held the joystick.",
             "remember rospy.get_time() in on_joystick, and compare in on_navigation",
         )
         expect(
             not send(False, 7),
-            "It let the navigation drive 0.7 s after the last command of the joystick.",
+            "It let the navigation drive 0.7 s after the last command from the joystick.",
             "drop its commands while rospy.get_time() is at most one second later",
         )
         expect(
             len(send(False, 10)) in range(6, 9),
             "After one second without the joystick it does not pass on the navigation's commands again.",
-            "the time must be that of the last command of the joystick, not of the navigation",
+            "the time must be that of the last command from the joystick, not from the navigation",
         )
         return trial.view()
