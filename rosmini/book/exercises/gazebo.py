@@ -163,10 +163,10 @@ def leash(answer: Script) -> Any:
             backs = sum(b < a - 0.5 for a, b in pairwise(ways))
             expect(backs >= 2, f"In 12 s it came back {backs} times.", "remember the first pose, and use it each time")
             off = min(ways[ways.index(max(ways)) :])
-            expect(off < 0.1, f"It came back to a place {off:.2f} m from its start.", "remember the first pose")
+            expect(off < 0.1, f"It came back to {off:.2f} m from where it started.", "remember the first pose")
             turned = max(abs(each[2] - pose[2]) for each in path)
             expect(turned < 0.05, f"It is turned by {turned:.1f} rad.", "use the whole pose, with its orientation")
             crate = trial.server.truth("crate")
-            expect(math.dist(crate[:2], (2.0, -2.0)) < 0.01, "The crate was moved, too.", "look for the robot's name")
+            expect(math.dist(crate[:2], (2.0, -2.0)) < 0.01, "The crate was also moved.", "look for the robot's name")
             view = trial.view()
     return view

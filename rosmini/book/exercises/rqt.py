@@ -44,7 +44,7 @@ def options(answer: object) -> Any:
         for topic in ("/rosout", "/imu", "/tf"):
             expect(
                 topic not in drawn,
-                f"{topic} is in the picture, too.",
+                f"{topic} is also in the picture.",
                 "hide debug, and choose the nodes: --nodes /eyes,/pilot,...",
             )
         return shown
@@ -69,7 +69,7 @@ def _graph(given: dict[str, Any], trial: Trial) -> Any:
 @exercise("field", praise="The plot shows that the wheels follow the command with a delay.")
 def field(answer: object) -> Any:
     """The field with the robot's actual angular velocity."""
-    expect_type(answer, str, "field is", "a text")
+    expect_type(answer, str, "field is", "a string")
     name = "/" + str(answer).lstrip("/")
     with Trial("arena", is_shown=False) as trial:
         node = trial.graph.node("driver")

@@ -120,7 +120,7 @@ def correct(answer: Any) -> Any:
 # ---- trail: a marker that grows ----
 
 
-@exercise("trail", praise="One marker is enough: each new message replaces it by a longer line.", gaps=2)
+@exercise("trail", praise="One marker is enough: each new message replaces it with a longer line.", gaps=2)
 def trail(answer: Script) -> Any:
     """One LINE_STRIP marker through all positions of the odometry so far."""
     heard: list[Any] = []

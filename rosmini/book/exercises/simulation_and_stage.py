@@ -121,7 +121,7 @@ PLACES = (((-2.0, -1.0, 90.0), (-0.5, 0.8)), ((1.5, 1.0, 200.0), (-1.0, -0.7)))
 """Starts (x, y, heading [deg]) and goals."""
 
 
-@exercise("sideways", praise="Whatever its heading, it went straight to its place, and did not turn.")
+@exercise("sideways", praise="Whatever its heading, the robot went straight to its goal and did not turn.")
 def sideways(answer: Script) -> Any:
     """An omnidirectional robot goes to a place without turning."""
     return [_slides(answer, start, goal) for start, goal in PLACES][-1]
@@ -142,7 +142,7 @@ def _slides(answer: Script, start: tuple[float, float, float], goal: tuple[float
         turned = math.degrees(heading - math.radians(degrees))
         expect(abs(turned) < 3, f"{at} it turned by {turned:.0f} degrees.", "leave angular.z at 0")
         off = math.dist((x, y), goal)
-        expect(off < 0.05, f"{at} it is {off:.2f} m from its place after 20 s.", "turn (dx, dy) into the robot's axes")
+        expect(off < 0.05, f"{at} it is {off:.2f} m from its goal after 20 s.", "turn (dx, dy) into the robot's axes")
         expect(math.dist(before[:2], (x, y)) < 0.02, f"{at} it does not stop.", "let the speed follow the distance")
         return trial.view()
 
