@@ -20,7 +20,7 @@ Hide = Literal["debug", "dead_sinks", "leaf_topics", "params", "tf", "unreachabl
 MEANING: dict[Hide, str] = {
     "debug": "tools such as rqt itself, and /rosout and /clock",
     "dead_sinks": "topics without subscribers",
-    "leaf_topics": "topics with one connection only",
+    "leaf_topics": "topics with only one connection",
     "params": "topics of dynamic_reconfigure",
     "tf": "the topics of transforms",
     "unreachable": "nodes that do not answer",
