@@ -30,7 +30,7 @@ SETTINGS = {
 """Type, level, default, minimum and maximum by name."""
 
 
-@exercise("camera_cfg", praise="The build makes CameraConfig of it, and rqt_reconfigure draws two sliders and a box.")
+@exercise("camera_cfg", praise="The build makes CameraConfig from it, and rqt_reconfigure draws two sliders and a box.")
 def camera_cfg(answer: Any) -> None:
     """The text of a .cfg file with three settings."""
     expect_type(answer, str, "camera_cfg is", "a string", 'write it between """three quotes"""')
@@ -55,20 +55,20 @@ def camera_cfg(answer: Any) -> None:
     )
     expect(
         re.search(r"""generate\(\s*["']watcher["']\s*,\s*["']camera["']""", answer),
-        "generate does not get the package and the node of the task.",
+        "generate is not called with the package and the node from the task.",
         'its first two arguments are "watcher" and "camera"',
     )
     given = {one.name: one for one in Description.of(found.tree).parameters}
     for name, (kind, level, default, low, high) in SETTINGS.items():
         expect(name in given, f"There is no setting {name}.", "one gen.add for each setting")
         one = given[name]
-        expect(one.type == kind, f"{name} has the type {one.type}_t, not {kind}_t.")
-        expect(one.level == level, f"{name} has the level {one.level}, not {level}.", "the level is the third argument")
+        expect(one.type == kind, f"{name} has type {one.type}_t, not {kind}_t.")
+        expect(one.level == level, f"{name} has level {one.level}, not {level}.", "the level is the third argument")
         expect(one.default == default, f"The default of {name} is {one.default}, not {default}.")
         if low is not None:
             expect(
                 (one.min, one.max) == (low, high),
-                f"{name} goes from {one.min} to {one.max}, not from {low} to {high}.",
+                f"{name} ranges from {one.min} to {one.max}, not from {low} to {high}.",
                 "the last two arguments are the minimum and the maximum",
             )
     extra = sorted(given.keys() - SETTINGS)
@@ -110,7 +110,7 @@ def courier(trial: Trial) -> tuple[Server, list[dict[str, Any]]]:
 # ---- careful_client: a client that changes the speed ----
 
 
-@exercise("careful_client", praise="It drove up slowly, with two changes in the whole drive.", gaps=2)
+@exercise("careful_client", praise="It approached the wall slowly, with two changes in the whole drive.", gaps=2)
 def careful_client(answer: Script) -> Any:
     """The client lowers the courier's speed near a wall."""
     with Trial("room", "_x:=0.0") as trial:
@@ -162,7 +162,7 @@ def lights(answer: Script) -> Any:
         trial.run(3.0)
         expect(
             len(calls) == settled and settled <= 12,
-            "It sends changes although the lights are right.",
+            "It sends changes although the lights are already right.",
             "remember what was sent last, and send only a different value",
         )
         return trial.view()

@@ -54,8 +54,8 @@ def _expect_visual(robot: Robot, link: str, kind: type, **sizes: float) -> Any:
         found = getattr(shape, name)
         expect(
             abs(found - right) < 1e-6,
-            f"The {word} of {link} has the {name} {found:g} m, not {right:g} m.",
-            "lengths are in metres; the radius is half of the diameter",
+            f"The {word} of {link} has a {name} of {found:g} m, not {right:g} m.",
+            "lengths are in metres; the radius is half the diameter",
         )
     return visuals[0]
 
@@ -86,7 +86,7 @@ def mast(answer: object) -> Any:
     expect(
         max(abs(low), *map(abs, pole.origin.xyz[:2])) < 1e-6,
         f"The cylinder reaches from {low:.3f} m to {low + HEIGHT:.3f} m above the foot.",
-        "the origin of a cylinder is its centre: raise the visual by half of the height",
+        "the origin of a cylinder is its centre: raise the visual by half the height",
     )
     light = _expect_visual(robot, "light_link", Sphere, radius=0.015)
     expect(
@@ -153,7 +153,7 @@ MODELS = {"burger": 1.00173292, "waffle": 1.55390748}
 """Masses of the descriptions [kg]."""
 
 
-@exercise("weigh", praise="The program works for each robot that is described.")
+@exercise("weigh", praise="The program works for any robot that has a description.")
 def weigh(answer: Script) -> None:
     """The node publishes the mass of the robot in its description."""
     from rosmini.sim.urdf import xacro

@@ -49,7 +49,7 @@ def users(answer: object) -> None:
     for name in OTHERS:
         expect(name in names, "A package is missing.", "try rospack depends-on turtlebot3_description")
     extra = [name for name in names if name not in OTHERS]
-    expect(not extra, f"{', '.join(extra)} does not belong there.", "list those that need it, not its needs")
+    expect(not extra, f"{', '.join(extra)} does not belong in the list.", "list the packages that need it")
     expect(names == sorted(names), "They are not in alphabetical order.", "use sorted(...)")
 
 
@@ -73,7 +73,7 @@ def _message(text: str) -> Any:
         raise Wrong(f"This is not a message definition: {error}") from error
 
 
-@exercise("repaired", praise="It now declares every package that it imports, and no other.")
+@exercise("repaired", praise="It now declares every package that it imports, and no others.")
 def repaired(answer: object) -> None:
     """The manifest of patrol: a licence, and the three packages that it imports."""
     expect_type(answer, str, "corrected is", "a text")

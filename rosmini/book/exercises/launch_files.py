@@ -133,7 +133,7 @@ def _launched(answer: Any, packages: PackageIndex, environ: Mapping[str, str], *
 # ---- fleet: three robots from one file ----
 
 
-@exercise("fleet", praise="Three robots, and their program is written down once.")
+@exercise("fleet", praise="Three robots, and their program appears only once.")
 def fleet(answer: object) -> Any:
     """A launch file that sends three robots on patrol, with one argument."""
     expect_type(answer, str, "fleet is", "a text")
@@ -154,7 +154,7 @@ def fleet(answer: object) -> Any:
 # ---- repaired: four mistakes without a message ----
 
 
-@exercise("repaired_launch", praise="None of the four mistakes had an error message, and you found them all.")
+@exercise("repaired_launch", praise="None of the four mistakes produced an error message, and you found them all.")
 def repaired_launch(answer: object) -> Any:
     """A launch file without the four mistakes."""
     expect_type(answer, str, "repaired is", "a text")
@@ -185,7 +185,7 @@ BACK_S = 3.0
 """Time in which the node has to be back [s]."""
 
 
-@exercise("night_shift", praise="One file for day and night, and a patrol that survives its own end.")
+@exercise("night_shift", praise="One file for day and night, and a patrol that survives being killed.")
 def night_shift(answer: object) -> Any:
     """A launch file with a condition, an expression and a node that is started again."""
     expect_type(answer, str, "night_shift is", "a text")

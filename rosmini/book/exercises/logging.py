@@ -42,13 +42,13 @@ def say_why(answer: Script) -> Any:
         x = trial.robot.truth()[0]
         gap = WALL_X - x
         expect(gap < 0.7, "The robot did not drive up to the wall.", "drive at 0.2 m/s while nothing is near")
-        expect(gap > 0.3, "The robot did not stop half a metre before the wall.", "stop if ahead is less than 0.5")
+        expect(gap > 0.3, "The robot did not stop half a metre from the wall.", "stop if ahead is less than 0.5")
         logs.clear()
         trial.run(20.0)
         _expect_only(logs, (Log.WARN,))
         expect(
             3 <= len(logs) <= 4,
-            f"In 20 s in front of the wall it warned {len(logs)} times, not once in 5 s.",
+            f"In 20 s in front of the wall it warned {len(logs)} times, not once every 5 s.",
             "use rospy.logwarn_throttle(5, ...)",
         )
         expect(
@@ -65,7 +65,7 @@ def _expect_quiet(logs: list[Any]) -> None:
     expect(
         not logs,
         f"While it drove, it logged {logs and logs[0].msg!r} at level {logs and LEVELS[logs[0].level]}.",
-        "distances are logged at DEBUG, and warnings only while the robot stands",
+        "distances are logged at DEBUG, and warnings only while the robot is stopped",
     )
 
 
@@ -73,8 +73,8 @@ def _expect_only(logs: list[Any], levels: tuple[int, ...]) -> None:
     others = [log for log in logs if log.level not in levels]
     expect(
         not others,
-        f"While it stood, it logged {others and others[0].msg!r} at level {others and LEVELS[others[0].level]}.",
-        "only warnings are wanted here",
+        f"While it was stopped, it logged {others and others[0].msg!r} at level {others and LEVELS[others[0].level]}.",
+        "log only warnings here",
     )
 
 
@@ -149,6 +149,6 @@ def look_closer(answer: Script) -> None:
             send(name, Log.ERROR, "stuck")
             wanted.append(name)
             found = loud()
-            expect(name in found, f"After an error of {name} its level is not DEBUG.", "call NAME/set_logger_level")
-            expect(found == wanted, f"After an error of {name} the nodes {found} are at DEBUG.", "use log.name")
+            expect(name in found, f"After an error in {name} its level is not DEBUG.", "call NAME/set_logger_level")
+            expect(found == wanted, f"After an error in {name} the nodes {found} are at DEBUG.", "use log.name")
         trial.expect_no_errors()

@@ -52,7 +52,7 @@ def mileage(answer: Script) -> Any:
         trial.run(0.5)
         robot.drive(0.2, 0.3, 6.0)
         trial.expect_no_errors()
-        expect(heard, "Nothing was published on mileage.", "publish in the callback, at each message")
+        expect(heard, "Nothing was published on mileage.", "publish in the callback, for each message")
         ahead = heard[-1].data
         expect(
             abs(ahead - 1.2) < 0.03,
@@ -63,7 +63,7 @@ def mileage(answer: Script) -> Any:
         back = heard[-1].data - ahead
         expect(
             abs(back - 0.8) < 0.03,
-            f"The robot drove back 0.8 m, and mileage changed by {back:.2f} m.",
+            f"The robot drove 0.8 m backwards, and mileage changed by {back:.2f} m.",
             "add the absolute value",
         )
         robot.drive(0.0, 1.5, 5.0)
@@ -106,14 +106,14 @@ def calibrates(answer: Script, name: str) -> Any:
         )
         before = trial.robot.truth()[2]
         trial.run(1.0)
-        expect(abs(trial.robot.truth()[2] - before) < 0.01, "The robot still turns.", "publish Twist() after the spin")
+        expect(abs(trial.robot.truth()[2] - before) < 0.01, "The robot is still turning.", "publish Twist() after the spin")
         return trial.view()
 
 
 # ---- stuck: wheels that spin at an obstacle ----
 
 
-@exercise("stuck", praise="It reports a robot at the wall, and no other.")
+@exercise("stuck", praise="It reports the robot that is stuck at the wall, and no others.")
 def stuck(answer: Script) -> Any:
     """The node notices that the robot drives by odometry, and does not move by its laser."""
     with Trial("arena") as trial:
@@ -126,7 +126,7 @@ def stuck(answer: Script) -> Any:
         expect(
             not any(message.data for message in heard),
             "The robot drove a free circle, and your node said that it was stuck.",
-            "when the range changes, store the place, too, and measure the distance from there",
+            "when the range changes, also store the position, and measure the distance from there",
         )
     with Trial("arena", "_x:=0.5") as trial:
         heard = listen(trial, "stuck", "std_msgs/Bool")
@@ -144,6 +144,6 @@ def stuck(answer: Script) -> Any:
         expect(
             heard and heard[-1].data,
             f"The robot pushed against the wall at x = {x:.2f} m for some seconds, and your node did not notice.",
-            "store a new place only if the range has changed; for -inf, use scan.range_min",
+            "store a new position only if the range has changed; for -inf, use scan.range_min",
         )
         return trial.view()

@@ -113,7 +113,7 @@ DRIVES = (("_x:=2.2", "_yaw:=0", 0.2, "ahead"), ("_x:=2.2", "_yaw:=3.14159", -0.
 """Start and heading of a robot in the room, whose wall is at x = 3.3 m, and the speed towards the wall [m/s]."""
 
 
-@exercise("guard_back", praise="It protects the robot in both directions, and never holds it where it is.", gaps=2)
+@exercise("guard_back", praise="It protects the robot in both directions, and never traps it.", gaps=2)
 def guard_back(answer: Script) -> Any:
     """The guard stops the robot before it drives into something, ahead and backwards, and lets it leave."""
     return [_guards(answer, *drive) for drive in DRIVES][-1]

@@ -29,7 +29,7 @@ RADIUS = 0.4
 """Radius of both circles of the eight [m]."""
 
 
-@exercise("eight", praise="Both circles have the right size, and the robot is back at its start.")
+@exercise("eight", praise="Both circles have the right size, and the robot is back where it started.")
 def eight(answer: Script) -> Any:
     """The robot drives a circle to the left and one to the right, and stops where it started."""
     with Trial("empty") as trial:
@@ -45,7 +45,7 @@ def eight(answer: Script) -> Any:
         )
         expect(
             math.dist(way[-1][:2], way[-3][:2]) < 0.01,
-            "The robot still drives.",
+            "The robot is still driving.",
             "after the second circle, publish Twist() once",
         )
         first = next(y for _, y, _ in way if abs(y) > 0.1)
@@ -59,7 +59,7 @@ def eight(answer: Script) -> Any:
         gap = math.dist(way[-1][:2], (0.0, 0.0))
         expect(
             gap < 0.12,
-            f"The robot stopped {gap:.2f} m from its start.",
+            f"The robot stopped {gap:.2f} m from where it started.",
             "a full circle takes 2 pi / w seconds; the robot needs no stop between the circles",
         )
         return trial.view()
@@ -95,11 +95,11 @@ def docks_from(answer: Script, start: float) -> Any:
         )
         distance = x - DOCK_X + LASER_BEHIND
         expect(distance > 0.12, "The robot ran into the wall.", "the nearer the wall, the slower")
-        expect(abs(x - before) < 0.02, "The robot still drives.", "its speed must reach 0 at a distance of 0.30 m")
+        expect(abs(x - before) < 0.02, "The robot is still driving.", "its speed must reach 0 at a distance of 0.30 m")
         expect(
             abs(distance - 0.30) <= 0.02,
-            f"The laser is {distance:.3f} m from the wall, not 0.30 m within 0.02 m.",
-            "make the speed proportional to the distance that is left; too near the wall, drive back",
+            f"The laser is {distance:.3f} m from the wall, not 0.30 m to within 0.02 m.",
+            "make the speed proportional to the remaining distance; if the robot is too near the wall, drive back",
         )
         return trial.view()
 

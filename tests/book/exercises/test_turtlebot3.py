@@ -8,5 +8,5 @@ from rosmini.sim.turtlebot import COMMAND_TIMEOUT
 
 def test_the_text_states_the_limits_of_the_simulated_robot(prose):
     assert f"limits $v$ to {BURGER.max_linear} m/s and $\\omega$ to {BURGER.max_angular} rad/s" in prose
-    assert "A command holds for half a second" in prose
+    assert "A command lasts for half a second" in prose
     assert COMMAND_TIMEOUT == 0.5
