@@ -14,7 +14,7 @@ def test_the_table_of_keys_is_that_of_the_program(prose):
         row = next(line for line in prose.splitlines() if line.startswith(start))
         assert speed in row
         assert limit in row
-    assert f"every {teleop.PERIOD} s, follows in steps of {teleop.SLOPE * keys.linear} m/s" in prose
+    assert f"follows in steps of {teleop.SLOPE * keys.linear} m/s, every {teleop.PERIOD} s" in prose
 
 
 def test_the_reader_is_told_the_timeout_of_the_simulator(prose):
@@ -22,5 +22,5 @@ def test_the_reader_is_told_the_timeout_of_the_simulator(prose):
     from rosmini.sim.stage.node import WATCHDOG
 
     assert "stops half a second after its last command" in prose
-    assert f"Stage stops after {WATCHDOG} s" in prose
+    assert f"Stage stops its robots after {WATCHDOG} s" in prose
     assert COMMAND_TIMEOUT == 0.5
