@@ -106,7 +106,9 @@ def calibrates(answer: Script, name: str) -> Any:
         )
         before = trial.robot.truth()[2]
         trial.run(1.0)
-        expect(abs(trial.robot.truth()[2] - before) < 0.01, "The robot is still turning.", "publish Twist() after the spin")
+        expect(
+            abs(trial.robot.truth()[2] - before) < 0.01, "The robot is still turning.", "publish Twist() after the spin"
+        )
         return trial.view()
 
 
