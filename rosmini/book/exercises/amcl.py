@@ -48,7 +48,7 @@ def systematic(answer: Any) -> None:
             found = np.asarray(answer(weights.copy(), u))
             expect(
                 found.shape == (count,),
-                f"For {count} particles the result has the shape {found.shape}, not ({count},).",
+                f"For {count} particles the result has shape {found.shape}, not ({count},).",
                 "return one index for each particle",
             )
             expect(
@@ -67,7 +67,7 @@ def systematic(answer: Any) -> None:
             wanted = np.searchsorted(np.cumsum(weights / weights.sum()), marks, side="right")
             expect(
                 np.count_nonzero(found != wanted) <= 1,
-                f"With u = {u} it drew different particles than the marks (i + u) / n select.",
+                f"With u = {u} it drew particles other than those that the marks (i + u) / n select.",
                 "u is an argument; draw no other random number",
             )
 
@@ -128,7 +128,7 @@ def _check_pose(message: Any, wanted: tuple[float, float, float]) -> None:
     expect(not rest.any(), "Elements of the covariance that should be 0 are not.", "set only 0, 7 and 35")
 
 
-@exercise("find_yourself", gaps=2, praise="It finds itself, and then it delivers.")
+@exercise("find_yourself", gaps=2, praise="The robot finds itself, and then delivers.")
 def find_yourself(answer: Script) -> Any:
     """A script that calls global_localization, wanders until amcl is sure, and sends the goal once."""
     with Drive(navigation(LOST, FINDS, "amcl", **ELSEWHERE)) as drive:
@@ -151,7 +151,7 @@ def find_yourself(answer: Script) -> Any:
         drive.start(answer)
         while now().to_sec() < begin + 90.0 and not drive.results:
             drive.run(1.0)
-        expect(bool(lost), "amcl never began everywhere.", "call the service global_localization")
+        expect(bool(lost), "amcl never began with particles everywhere.", "call the service global_localization")
         expect(bool(sure), "amcl was not sure of the pose within 90 s.", "drive as wander.py does until it is")
         expect(bool(goals), "There was no goal on move_base_simple/goal within 90 s.", "send it in on_pose")
         expect(len(goals) == 1, f"There were {len(goals)} goals, not one.", "remember that the goal was sent")

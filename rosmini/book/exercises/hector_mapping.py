@@ -135,9 +135,9 @@ def _expect_room(found: GridMap) -> None:
         name = "xy"[axis]
         expect(
             start < low + 0.01 and end > high - 0.01,
-            f"Along {name} the map reaches from {start:.1f} m to {end:.1f} m, but the building from {low:g} m to "
-            f"{high:g} m, seen from the robot.",
-            f"map_start_{name} is the place of the robot in the map, from 0 to 1",
+            f"Along {name} the map reaches from {start:.1f} m to {end:.1f} m, but the building extends from {low:g} m "
+            f"to {high:g} m, seen from the robot.",
+            f"map_start_{name} is the robot's position in the map, from 0 to 1",
         )
 
 

@@ -76,9 +76,9 @@ def classify(answer: Any) -> None:
         expect_type(found, np.ndarray, "It returned", "a numpy array")
         expect(
             found.shape == picture.shape,
-            f"An image of the shape {picture.shape} became a map of the shape {found.shape}.",
+            f"An image of shape {picture.shape} was turned into a map of shape {found.shape}.",
         )
-        said = f"Of {picture.tolist()} with free_thresh {free}, occupied_thresh {occupied} and negate {negate}"
+        said = f"For {picture.tolist()} with free_thresh {free}, occupied_thresh {occupied} and negate {negate}"
         expect(
             found.tolist() != wanted[::-1],
             f"{said} it returns a map that is upside down.",
@@ -114,7 +114,7 @@ def keepout(answer: Script) -> Any:
             trial.run(0.5)
             expect(
                 bool(heard),
-                "A subscriber of keepout_map that starts a second later receives no map.",
+                "A subscriber to keepout_map that starts a second later receives no map.",
                 "publish with latch=True",
             )
             _expect_closed(grid, heard[-1])

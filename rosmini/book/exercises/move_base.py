@@ -91,8 +91,8 @@ def patrol(answer: Script) -> Any:
         places = [_place(pose) for pose in drive.goals]
         expect(places == ROUND, f"The goals were {places}, not {ROUND}.", "send one goal for each x, y of the list")
         lost = [status.text for status in drive.ends if status.status != Status.SUCCEEDED]
-        expect(not lost, f"A goal failed: {''.join(lost[:1])}", "send the places of the list, as they are")
-        expect(handle.poll() is not None, "The script still runs after the third goal.", "end without spin()")
+        expect(not lost, f"A goal failed: {''.join(lost[:1])}", "send the places in the list, as they are")
+        expect(handle.poll() is not None, "The script is still running after the third goal.", "end without spin()")
         return drive.view()
 
 
@@ -175,7 +175,7 @@ def _recoveries(settings: dict[str, Any]) -> list[str]:
     expect(
         kinds == [CLEAR, CLEAR],
         f"The types are {kinds}.",
-        f"use two behaviours of the type {CLEAR}, with different names",
+        f"use two recovery behaviors of type {CLEAR}, with different names",
     )
     for (name, _), side in zip(named, (4.0, 1.0), strict=True):
         own: Any = settings.get(name)

@@ -14,7 +14,7 @@ TABLE = (1.2, 0.9, 0.0)
 """A free place in the world room."""
 
 
-@exercise("stack", praise="It has a map, knows where it is, and drives.")
+@exercise("stack", praise="The robot has a map, knows where it is, and drives.")
 def stack(answer: Any) -> Any:
     """A launch file with map and localisation, with which the robot drives in the room."""
     expect_type(answer, str, "stack is", "a text")
@@ -48,7 +48,7 @@ PLACE = (-1.0, 2.6, math.pi / 2)
 HALL = (-3.0, 1.0, 0.0)
 
 
-@exercise("go_there", praise="It waited for a subscriber, and the robot has arrived.")
+@exercise("go_there", praise="The script waited for a subscriber, and the robot arrived.")
 def go_there(script: Any) -> Any:
     """The script sends the robot to the dining room, although it starts before the Navigation Stack listens."""
     expect_type(script, Script, "The answer is", "a script")
@@ -70,7 +70,7 @@ def go_there(script: Any) -> Any:
         expect(
             "reached" in drive.results[0],
             f"The robot did not arrive. move_base said: {drive.results[0]}",
-            "check the frame, the position, and that the quaternion has the length 1",
+            "check the frame, the position, and that the quaternion has length 1",
         )
         expect(
             math.dist((x, y), PLACE[:2]) < 0.25,
@@ -85,7 +85,7 @@ def go_there(script: Any) -> Any:
 # ---- nearest: the shortest of four paths ----
 
 STARTS = (
-    (HALL, (-5.2, 0.8), "In a straight line (-2.6, 2.4) is nearer, but there is a wall between."),
+    (HALL, (-5.2, 0.8), "In a straight line (-2.6, 2.4) is nearer, but there is a wall in between."),
     ((-1.0, -1.0, 1.57), (-2.2, -0.9), "The place depends on where the robot starts."),
 )
 
@@ -105,14 +105,14 @@ def nearest(script: Any) -> Any:
             goal = drive.goals[-1].pose.position
             expect(
                 math.dist((goal.x, goal.y), place) < 0.1,
-                f"{where}. Your node sent it to ({goal.x:.1f}, {goal.y:.1f}), not to {place}. {why}",
+                f"{where}. Your node sent the robot to ({goal.x:.1f}, {goal.y:.1f}), not to {place}. {why}",
                 "compare the lengths of the paths; an empty path leads nowhere",
             )
             drive.finish(30.0)
             said = drive.results[0] if drive.results else "nothing"
             expect(
                 "reached" in said,
-                f"{where}. It did not arrive; move_base said: {said}",
+                f"{where}. The robot did not arrive; move_base said: {said}",
                 "publish the goal once, with its frame and a heading",
             )
             view = drive.view()

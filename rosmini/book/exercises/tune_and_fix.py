@@ -11,7 +11,7 @@ from rosmini.book.drives import Drive, courier
 # ---- spinning: a robot that turns at its goal for ever ----
 
 
-@exercise("spinning", praise="It turns slowly enough to stop at the right heading.")
+@exercise("spinning", praise="The robot turns slowly enough to stop at the right heading.")
 def spinning(answer: Any) -> Any:
     """Settings with which the robot stops at its goal, and looks where it should."""
     goal = (-2.0, 0.8, 1.57)
@@ -69,7 +69,7 @@ def _marks_the_door(drive: Drive, name: str) -> bool:
 # ---- lost: a launch file with two faults ----
 
 
-@exercise("lost", praise="It knows where it is and how large it is, and drives.")
+@exercise("lost", praise="The robot knows where it is and how large it is, and drives.")
 def lost(answer: Any) -> Any:
     """A launch file with which the robot drives to a goal with amcl."""
     expect_type(answer, str, "lost is", "a text")
@@ -77,8 +77,8 @@ def lost(answer: Any) -> Any:
         x, y, _ = drive.robot.truth()
         expect(
             math.dist((x, y), (0.9, 2.6)) < 0.1,
-            f"The robot stands at ({x:.1f}, {y:.1f}), not at (0.9, 2.6).",
-            "x, y and yaw say where the robot stands: they are right",
+            f"The robot is at ({x:.1f}, {y:.1f}), not at (0.9, 2.6).",
+            "x, y and yaw say where the robot starts: they are right",
         )
         expect("/amcl" in drive.graph.nodes, "There is no node /amcl.", "localization is amcl")
         drive.expect_arrival((-1.0, 1.0, 3.14), 30.0, "one fault is in the arguments, the other in the rosparam tag")
