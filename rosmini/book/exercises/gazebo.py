@@ -87,7 +87,7 @@ def _check_barrel(model: sdf.SdfModel) -> None:
     expect(shape.kind == "cylinder", f"Its collision is a {shape.kind}, not a cylinder.")
     expect(
         math.isclose(shape.radius, RADIUS) and math.isclose(shape.length, HEIGHT),
-        f"Its cylinder has the radius {shape.radius:g} m and the length {shape.length:g} m, not {RADIUS} and {HEIGHT}.",
+        f"Its cylinder has a radius of {shape.radius:g} m and a length of {shape.length:g} m, not {RADIUS} and {HEIGHT}.",
     )
     bottom = model.pose[2] + link.pose[2] + collision.pose[2] - HEIGHT / 2
     expect(
@@ -158,7 +158,7 @@ def leash(answer: Script) -> Any:
                 path.append(trial.server.truth())
             ways = [math.dist(each[:2], pose[:2]) for each in path]
             far = max(ways)
-            expect(far < 1.1, f"The robot came {far:.2f} m away.", "compare the distance in each message")
+            expect(far < 1.1, f"The robot got {far:.2f} m away.", "compare the distance in each message")
             expect(far > 0.9, f"The robot was moved after {far:.2f} m.", "do not move it while it is near enough")
             backs = sum(b < a - 0.5 for a, b in pairwise(ways))
             expect(backs >= 2, f"In 12 s it came back {backs} times.", "remember the first pose, and use it each time")

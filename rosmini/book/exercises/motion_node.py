@@ -32,13 +32,13 @@ def _run_to_the_end(trial: TurtleTrial, answer: Script, seconds: float) -> None:
     trial.run(seconds)
     expect(
         handle.poll() is not None,
-        f"The script still runs after {seconds:g} s.",
+        f"The script is still running after {seconds:g} s.",
         "end the loop, and let the script end after it",
     )
     turtle = _turtle(trial)
     expect(
         turtle.forward == 0 and turtle.angular_velocity == 0,
-        "The script has ended, but the turtle still moves.",
+        "The script has ended, but the turtle is still moving.",
         "publish a Twist() at the end",
     )
 
@@ -97,12 +97,12 @@ def wall(answer: Script) -> Any:
             left = sorted(min(place, EDGE - place) for place in (turtle.x, turtle.y))
             expect(
                 left[0] < 0.05,
-                f"The turtle stopped {left[0]:.2f} m before the wall.",
-                "continue while the turtle still moves",
+                f"The turtle stopped {left[0]:.2f} m from the wall.",
+                "continue while the turtle is still moving",
             )
             expect(
                 start != SLANTING or left[1] < 0.05,
-                f"The turtle met the wall at an angle and stopped {left[1]:.2f} m before the corner, although "
+                f"The turtle met the wall at an angle and stopped {left[1]:.2f} m from the corner, although "
                 "it was still sliding.",
                 "stop only if the distance moved in one cycle, in x and y together, is almost 0",
             )

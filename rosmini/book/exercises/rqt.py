@@ -111,7 +111,7 @@ def wave(answer: object) -> Any:
         expect(max(seen) > SWING_RAD, "The robot does not turn to the left.", "angular/z must alternate")
         expect(
             min(seen) < -SWING_RAD,
-            "The robot never faces to the right of its first heading.",
+            "The robot never faces to the right of its initial heading.",
             "with a cosine the turn is fastest to the left at i = 0; where does the swing start then?",
         )
         expect(

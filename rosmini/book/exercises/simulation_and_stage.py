@@ -68,7 +68,7 @@ def _stops(trial: Trial, answer: Script, who: str, wall: float, touch: float) ->
     x = trial.simulation.truth()[0]
     expect(x > begin + 0.1, f"{who} did not drive.", "publish a command for every scan")
     expect(wall - x > touch, f"{who} ran into the wall.", "compute which beam looks ahead from scan.angle_min")
-    expect(x - before < 0.01, f"{who} still drives after 20 s.", "publish a command of zero to stop it")
+    expect(x - before < 0.01, f"{who} is still driving after 20 s.", "publish a command of zero to stop it")
     expect(
         wall - x < 0.51,
         f"{who} stopped {wall - x:.2f} m before the wall; it should stop less than half a metre before it.",

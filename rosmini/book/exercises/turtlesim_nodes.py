@@ -100,7 +100,7 @@ def guard(answer: Script) -> Any:
             trial.run(1.0)
             expect(
                 handle.poll() == 0 and "/guard" not in trial.graph.nodes,
-                f"The turtle is at {place}, but /guard still runs.",
+                f"The turtle is at {place}, but /guard is still running.",
                 "call rospy.signal_shutdown(reason); check x and y, in both directions",
             )
             count = sum(line.endswith("]: the turtle has left") for line in trial.output.splitlines())
