@@ -87,7 +87,8 @@ def _check_barrel(model: sdf.SdfModel) -> None:
     expect(shape.kind == "cylinder", f"Its collision is a {shape.kind}, not a cylinder.")
     expect(
         math.isclose(shape.radius, RADIUS) and math.isclose(shape.length, HEIGHT),
-        f"Its cylinder has a radius of {shape.radius:g} m and a length of {shape.length:g} m, not {RADIUS} and {HEIGHT}.",
+        f"Its cylinder has a radius of {shape.radius:g} m and a length of {shape.length:g} m; "
+        f"they should be {RADIUS} m and {HEIGHT} m.",
     )
     bottom = model.pose[2] + link.pose[2] + collision.pose[2] - HEIGHT / 2
     expect(

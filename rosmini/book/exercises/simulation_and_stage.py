@@ -71,8 +71,8 @@ def _stops(trial: Trial, answer: Script, who: str, wall: float, touch: float) ->
     expect(x - before < 0.01, f"{who} is still driving after 20 s.", "publish a command of zero to stop it")
     expect(
         wall - x < 0.51,
-        f"{who} stopped {wall - x:.2f} m before the wall; it should stop less than half a metre before it.",
-        "the beam with the angle 0 looks ahead; its number is -angle_min / angle_increment",
+        f"{who} stopped {wall - x:.2f} m from the wall; it should stop less than half a metre from it.",
+        "the beam at angle 0 looks ahead; its number is -angle_min / angle_increment",
     )
 
 
