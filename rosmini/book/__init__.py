@@ -1,4 +1,4 @@
-"""What the chapters of the book use beside ROS: the checks of their exercises, and drawings."""
+"""What the book's chapters use besides ROS: the checks of their exercises, and drawings."""
 
 from rosmini.book.checks import check
 from rosmini.book.drawings import drawing
