@@ -108,7 +108,7 @@ def _check_pose(message: Any, wanted: tuple[float, float, float]) -> None:
     q = pose.orientation
     expect(
         abs(math.hypot(q.z, q.w) - 1) < 1e-3 and abs(math.remainder(2 * math.atan2(q.z, q.w) - yaw, math.tau)) < 1e-3,
-        "Its orientation does not match the parameter yaw.",
+        "The orientation does not match the parameter yaw.",
         "z is sin(yaw / 2), w is cos(yaw / 2)",
     )
     covariance = np.reshape(message.pose.covariance, (6, 6))
@@ -152,7 +152,7 @@ def find_yourself(answer: Script) -> Any:
         while now().to_sec() < begin + 90.0 and not drive.results:
             drive.run(1.0)
         expect(bool(lost), "amcl never began with particles everywhere.", "call the service global_localization")
-        expect(bool(sure), "amcl was not sure of the pose within 90 s.", "drive as wander.py does until it is")
+        expect(bool(sure), "amcl was not sure of the pose within 90 s.", "drive as wander.py does until amcl is sure")
         expect(bool(goals), "There was no goal on move_base_simple/goal within 90 s.", "send it in on_pose")
         expect(len(goals) == 1, f"There were {len(goals)} goals, not one.", "remember that the goal was sent")
         expect(
