@@ -44,7 +44,7 @@ def hall(answer: Any) -> Any:
         gone = math.dist(start[:2], drive.robot.truth()[:2])
         expect(
             gone > 0.5,
-            f"10 s after the clicks the robot is {gone:.2f} m from its start.",
+            f"10 s after the clicks the robot is {gone:.2f} m from where it started.",
             "the simulator hears /cmd_vel: where does move_base send its commands?",
         )
         return drive.view()
@@ -95,7 +95,7 @@ def come_home(answer: Script) -> Any:
             f"In the end the robot is {off:.1f} m from where the script started.",
             "look up the pose before the first goal, and send it after the result",
         )
-        expect(turned < 0.4, f"It is at home, but its heading is {turned:.1f} rad off.", "use the rotation, too")
+        expect(turned < 0.4, f"It is at home, but its heading is {turned:.1f} rad off.", "also use the rotation")
         return drive.view()
 
 

@@ -123,7 +123,7 @@ def _check_reports(answer: Script) -> None:
             expect(
                 heard == wanted,
                 f"For {wanted[0]} it published {heard or 'nothing'} on report.",
-                "count the markers of the type POINTS; color.r is 1 if the frontier was given up",
+                "count the markers of type POINTS; color.r is 1 if the frontier was given up",
             )
 
 
@@ -160,7 +160,7 @@ def cautious(answer: Any) -> Any:
             expect(
                 math.isclose(given[name], wanted),
                 f"/explore/{name} is {given[name]:g}, not {wanted:g}.",
-                "the table of parameters has the names",
+                "the table of parameters lists the names",
             )
         flat.run(20.0)
         return flat.view()
@@ -168,7 +168,7 @@ def cautious(answer: Any) -> Any:
 
 def _check_weights(potential: float, gain: float) -> None:
     """Expect weights that choose as the task asks."""
-    expect(gain == 1, f"/explore/gain_scale is {gain:g}, not 1.", "explore.launch sets it to 1 already")
+    expect(gain == 1, f"/explore/gain_scale is {gain:g}, not 1.", "explore.launch already sets it to 1")
     near, far = _cost(potential, gain, 2.0, 0.8), _cost(potential, gain, 5.0, 2.4)
     expect(
         near < far,

@@ -185,7 +185,7 @@ def enough(answer: Script) -> Any:
         flat.run(1.0)
         begin = flat.robot.truth()
         flat.run(2.0)
-        expect(math.dist(begin[:2], flat.robot.truth()[:2]) < 0.02, "The robot still drives.", "cancel only once")
+        expect(math.dist(begin[:2], flat.robot.truth()[:2]) < 0.02, "The robot has not stopped.", "cancel only once")
         return flat.view()
 
 
@@ -228,7 +228,7 @@ def _check_areas(answer: Script) -> None:
             expect(bool(heard), "There was no message on known_area.", "call area.publish(...) in on_map")
             expect(
                 math.isclose(heard[-1], wanted, rel_tol=1e-4),
-                f"Of a map with {cells} known cells of {resolution} m it published {heard[-1]:.4g} m2, "
+                f"For a map with {cells} known cells of {resolution} m it published {heard[-1]:.4g} m2, "
                 f"not {wanted:.4g} m2.",
                 "multiply the number of known cells by the resolution squared; free is 0, occupied 100, unknown -1",
             )

@@ -33,7 +33,7 @@ def event_queue(answer: Any) -> None:
     expect(
         sorted(names) == sorted(wanted),
         f"Of the four events it ran {names}.",
-        "add the events that a function returns to the queue, and go on until it is empty",
+        "add the events that a function returns to the queue, and continue until it is empty",
     )
     expect(names == wanted, f"It ran the events in this order: {names}.", "sort by time, then by a running number")
     expect(

@@ -42,7 +42,7 @@ def third_robot(answer: Any) -> Any:
         found = trial.simulation.truth("tb3_2")
         expect(
             math.dist(found, PLACE) < 0.05,
-            f"tb3_2 should stand at x = 1, y = -0.5 with heading 1.57, and is at ({found[0]:.1f}, {found[1]:.1f}) "
+            f"tb3_2 should be at x = 1, y = -0.5 with heading 1.57, and is at ({found[0]:.1f}, {found[1]:.1f}) "
             f"with heading {found[2]:.2f}.",
             "set -x and -y in metres, and -Y, the heading, in radians",
         )
@@ -128,7 +128,7 @@ def follow(answer: Script) -> Any:
             expect(
                 0.3 < gap < 0.6,
                 f"While the leader drives at 0.1 m/s, {robot} should be about 0.4 m behind; it is {gap:.1f} m behind.",
-                "let the speed grow with the distance beyond 0.4 m, and use relative names of topics",
+                "let the speed grow with the distance beyond 0.4 m, and use relative topic names",
             )
         trial.run(8.0)
         before = sim.truth("back")
@@ -159,7 +159,7 @@ def two_stacks(answer: Any) -> Any:
             x, y, _ = trial.simulation.truth(robot)
             expect(
                 math.dist((x, y), place) < 0.1,
-                f"{robot} stands at ({x:.1f}, {y:.1f}), not at {place}.",
+                f"{robot} is at ({x:.1f}, {y:.1f}), not at {place}.",
                 "keep the robots as they are: the faults are elsewhere",
             )
             node = f"/{robot}/move_base"
@@ -184,6 +184,6 @@ def two_stacks(answer: Any) -> Any:
             expect(
                 off < 0.35,
                 f"After {DRIVE_S:g} s {robot} is {off:.1f} m from its goal.",
-                "compare the pose at which amcl begins with the robot's place and heading",
+                "compare the pose at which amcl begins with the robot's position and heading",
             )
         return trial.view()

@@ -95,7 +95,7 @@ def _named(point: Any) -> str:
 CLICKS = ((-1.0, 0.9), (-1.05, -0.8))
 
 
-@exercise("one_click", praise="One click is enough, and the robot looks where it was going.")
+@exercise("one_click", praise="One click is enough, and the robot faces the way it was going.")
 def one_click(answer: Script) -> Any:
     """The robot drives to each point that is clicked, and looks in the direction from which it set out."""
     with Errands((-2.5, 0.6, 0.0)) as errands:
@@ -175,11 +175,11 @@ def waiter(answer: Script) -> Any:
             _expect_goals(errands)
         errands.expect_no_errors()
         expect(bool(errands.goals), "move_base received no goal.", "call client.send_goal(goal)")
-        expect(handle.poll() is not None, "The script still runs after 75 s.", "end without spin()")
+        expect(handle.poll() is not None, "The script is still running after 75 s.", "end without spin()")
         expect(
             errands.places == list(TABLES),
             f"The goals were {errands.places}.",
-            "send one goal for each x, y of the list, also after one that was cancelled",
+            "send one goal for each x, y in the list, even after one that was cancelled",
         )
         errands.run(1.0)
         _expect_goals(errands)

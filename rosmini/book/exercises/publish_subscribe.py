@@ -90,7 +90,7 @@ def history(answer: Script) -> Any:
         for name, right, when in (("late", SENT[:2], "the second"), ("later", SENT[1:], "the last")):
             expect(
                 heard[name] == list(right),
-                f"A subscriber of /history that started after {when} of the orders {_listed(SENT)} received "
+                f"A subscriber to /history that started after {when} of the orders {_listed(SENT)} received "
                 f"{_listed(heard[name]) or 'nothing'}, not {_listed(right)}.",
                 "keep the last three, and send them in peer_subscribe, the oldest first",
             )
@@ -186,7 +186,7 @@ def _examine(service: Any) -> None:
             )
         if event == 1:
             called = [name for name, _ in got]
-            expect("other" not in called, "A subscriber of another topic was called.", "keep a list for each topic")
+            expect("other" not in called, "A subscriber to another topic was called.", "keep a list for each topic")
             expect(
                 "third" in called,
                 "A callback failed, and the callbacks after it were not called.",

@@ -62,7 +62,7 @@ def fields_of(answer: Any) -> None:
 # ---- culprits: refusals ----
 
 
-@exercise("culprits", praise="The name of a type is for people; the md5 sum decides.")
+@exercise("culprits", praise="The name of a type is for people; nodes compare the md5 sum.")
 def culprits(answer: Any) -> None:
     """The fields because of which three connections were refused."""
     expect_type(answer, list | tuple, "culprits is", "a list")
@@ -163,7 +163,7 @@ def hear(answer: Any) -> None:
             ) from error
         expect(
             ("registerSubscriber", "/ear", "/news", String._type) in [one[:4] for one in master.asked],
-            "/ear did not register as a subscriber of the topic.",
+            "/ear did not register as a subscriber to the topic.",
             "call master.registerSubscriber(name, topic, type, address)",
         )
         expect(opened, "It opened no connection.", "call sock = connect((host, port))")
@@ -212,7 +212,7 @@ def decide(answer: Any) -> None:
         stands = math.isclose(sim.truth()[0], x, abs_tol=1e-3)
     expect(x > 0.1, "The robot did not drive.", "linear.x is the first of the six numbers")
     expect(abs(y) < 0.1 and abs(heading) < 0.2, "The robot did not go straight ahead.", "set only linear.x")
-    expect(stands, "The robot still drives after twenty seconds.", "return zeros at 0.5 m ahead or less")
+    expect(stands, "The robot is still driving after twenty seconds.", "return zeros at 0.5 m ahead or less")
     expect(
         STOPS[0] < x < STOPS[1],
         f"The robot stopped after {x:.2f} m; half a metre before the wall is at about 2.8 m.",
