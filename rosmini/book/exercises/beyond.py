@@ -115,7 +115,7 @@ STEERED: State = [
 ]
 
 
-@exercise("drivers", praise="If this list has two names, two nodes fight over the robot.")
+@exercise("drivers", praise="If this list has two names, two nodes are fighting over the robot.")
 def drivers(answer: Any) -> None:
     """The publishers of a topic."""
     for state, topic, wanted in (

@@ -98,7 +98,7 @@ def frontier_count(answer: Script) -> Any:
         flat.run(15.0)
         expect(
             bool(shown) and heard[-1:] == shown[-1:],
-            f"The robot explores, {shown[-1:]} is the state of its frontiers, and your last report is {heard[-1:]}.",
+            f"The state of the frontiers is {shown[-1:]}, but your last report is {heard[-1:]}.",
             "publish one report for each message",
         )
         return flat.view()

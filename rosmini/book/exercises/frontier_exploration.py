@@ -26,7 +26,7 @@ Cells = set[tuple[int, int]]
 
 GROUPS: tuple[tuple[Cells, list[int], str], ...] = (
     ({(0, 0), (1, 0), (2, 0)}, [3], "three cells in a row are one frontier"),
-    ({(0, 0), (1, 1), (2, 2), (3, 1)}, [4], "cells that touch at a corner belong together"),
+    ({(0, 0), (1, 1), (2, 2), (3, 1)}, [4], "cells that touch at a corner are one frontier"),
     ({(0, 0), (5, 5), (6, 5), (6, 6)}, [3, 1], "separate groups are separate frontiers, the largest first"),
     ({(0, 0), (0, 2), (2, 0), (1, 1)}, [4], "cells may be joined by a chain through others"),
     ({(0, 0), (2, 0), (4, 1), (-3, -3)}, [1, 1, 1, 1], "cells with another cell between them do not touch"),
@@ -125,7 +125,7 @@ def clicker(answer: Script) -> Any:
         expect(
             bool(goals),
             f"explore_client sent no area within 15 s of its start; number of corners so far: {corners_so_far}.",
-            "publish the corners, the first one again, and a point inside; before, wait for get_num_connections()",
+            "wait for get_num_connections(), then publish the corners, the first one again, and a point inside",
         )
         goal = goals[0]
         expect(
@@ -143,7 +143,7 @@ def clicker(answer: Script) -> Any:
         expect(
             math.dist((inside.x, inside.y), (0.3, 0.2)) < 0.01,
             f"The exploration begins at ({inside.x:.1f}, {inside.y:.1f}), not at (0.3, 0.2).",
-            "the last of the six points is where to begin",
+            "the last of the six points is the starting point",
         )
         x, y, _ = flat.robot.truth()
         expect(math.hypot(x, y) > 0.3, "The robot did not drive.", "the points must be in order around the area")

@@ -47,13 +47,13 @@ def event_queue(answer: Any) -> None:
 # ---- lane_order: two lanes ----
 
 
-@exercise("lane_order", praise="Two events at one time run in the order in which they were added.")
+@exercise("lane_order", praise="Two events at the same time run in the order in which they were added.")
 def lane_order(answer: Any) -> None:
     """The order in which two lanes print."""
     expect_type(answer, str, "The answer is", "a string")
     wanted = _printed()
     words = answer.replace(",", " ").split()
-    expect(sorted(words) == sorted(wanted), f"The words are {', '.join(sorted(wanted))}, each of them once.")
+    expect(sorted(words) == sorted(wanted), f"The words should be {', '.join(sorted(wanted))}, each of them once.")
     different = next((i for i, (one, other) in enumerate(zip(words, wanted, strict=True)) if one != other), None)
     expect(
         different is None,
@@ -109,5 +109,5 @@ def first_difference(answer: Any) -> None:
         expect(
             found == wanted and type(found) is type(wanted),
             f"For the runs {runs[0]} and {runs[1]} it returned {found!r}, not {wanted}.",
-            "compare event by event, also where one of the lists has ended",
+            "compare event by event, even after one of the lists has ended",
         )

@@ -170,7 +170,7 @@ def two_stacks(answer: Any) -> Any:
         expect(
             "/map" in found,
             f"No node publishes /map; there is {', '.join(sorted(found)) or 'none'}.",
-            "both robots use one map, so the map server belongs in no group",
+            "both robots use one map, so do not put the map server in a namespace",
         )
         desk = trial.graph.node("desk")
         for robot, goal in GOALS.items():

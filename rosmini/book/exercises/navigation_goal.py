@@ -76,7 +76,7 @@ class Errands(Drive):
         off, turned = math.dist((x, y), goal[:2]), math.remainder(yaw - goal[2], math.tau)
         expect(
             off < 0.3,
-            f"{what} the robot should be at {_named(goal)}, and is at {_named((x, y))} after at most {seconds:g} s.",
+            f"{what} the robot should be at {_named(goal)} after at most {seconds:g} s, but is at {_named((x, y))}.",
             hint,
         )
         expect(
@@ -148,7 +148,7 @@ def home(answer: Script) -> Any:
         )
         errands.expect_pose(
             BEGIN, 20.0, "After a message on home", "use the first pose, not the last",
-            "copy the orientation of the first pose too, not only its position",
+            "copy the orientation of the first pose as well as its position",
         )  # fmt: skip
         return errands.view()
 
@@ -187,7 +187,7 @@ def waiter(answer: Script) -> Any:
         expect(
             reached == [TABLES[0], TABLES[2]],
             f"The robot served only {reached}.",
-            "wait for the result of each goal, also the last",
+            "wait for the result of each goal, even the last",
         )
         expect(
             bool(errands.cancels),

@@ -194,7 +194,7 @@ def judge(night: Night, what: Trouble) -> None:
     expect(
         not false,
         f"{said}It reported {false and false[0]}.",
-        "the frame is map; wait for the result, and ask get_state() whether the goal has succeeded",
+        "the frame is map; wait for the result, and use get_state() to find out whether the goal has succeeded",
     )
     expect(
         not night.touched,
@@ -217,7 +217,7 @@ def judge(night: Night, what: Trouble) -> None:
             f"{said}{place} was {f'given up after {times[0]:.0f} s' if times else 'not given up'}.",
             f"its door stays shut: report '{place}: given up', at the earliest {PATIENCE:.0f} s after the start",
         )
-    expect("done" in texts, f"{said}After {LIMIT:.0f} s the patrol is not over.", "report done at the end")
+    expect("done" in texts, f"{said}After {LIMIT:.0f} s the patrol has not ended.", "report done at the end")
 
 
 # ---- night_round: a node with its own recovery ----

@@ -105,7 +105,7 @@ class _Trickle:
             if not data:
                 self._turns += TURNS // 10
             return data
-        raise Wrong("Your program waits for bytes that never arrive.", "recv returns b'' when the other end has closed")
+        raise Wrong("Your program waits for bytes that never arrive.", "recv returns b'' when the other end closes")
 
     def close(self) -> None:
         self._socket.close()
@@ -215,6 +215,6 @@ def decide(answer: Any) -> None:
     expect(stands, "The robot is still driving after twenty seconds.", "return zeros at 0.5 m ahead or less")
     expect(
         STOPS[0] < x < STOPS[1],
-        f"The robot stopped after {x:.2f} m; half a metre before the wall is at about 2.8 m.",
+        f"The robot stopped after {x:.2f} m; to be half a metre from the wall, it should stop after about 2.8 m.",
         "compare the distance ahead with 0.5",
     )

@@ -42,7 +42,7 @@ def watchdog(answer: Script) -> None:
         trial.graph.node("owner").subscriber("alarm", Bool, lambda m: got.append(m.data))
         trial.start(answer)
         trial.run(3.0)
-        expect(got, "There was no message on /alarm.", "publish a Bool from a Timer, also while scans arrive")
+        expect(got, "There was no message on /alarm.", "publish a Bool from a Timer, even while scans arrive")
         expect(not got[-1], "It raised the alarm although scans arrived.", "store the time of each scan")
         trial.graph.faults.disturb("/scan", lose=1.0)
         trial.run(0.75)
@@ -52,7 +52,7 @@ def watchdog(answer: Script) -> None:
         expect(
             got and got[-1],
             "There was no scan for nearly 2 s, but no alarm.",
-            "the scan's callback is not called then, so compare the times in a Timer",
+            "without scans their callback is not called, so compare the times in a Timer",
         )
         trial.graph.faults.clear()
         trial.run(1.0)
@@ -81,4 +81,4 @@ def doctor(answer: Script) -> None:
             expect(topic in found, f"{topic} has no publisher, but was not printed.", "compare the two lists")
         extra = [each for each in found if each not in wanted]
         expect(not extra, f"It also printed {extra[0] if extra else ''}.", "print only those without a publisher")
-        expect(found == wanted, "They are not in alphabetical order, or not unique.", "use sorted(...)")
+        expect(found == wanted, "The topics are not in alphabetical order, or not unique.", "use sorted(...)")
