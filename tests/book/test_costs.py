@@ -13,6 +13,7 @@ import pytest
 from book.tools import costs
 from book.tools.reference import CostTable
 
+from ..conftest import nightly
 from ..processes import run
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -20,7 +21,7 @@ NEEDS_PROC = pytest.mark.skipif(not Path("/proc/self/status").is_file(), reason=
 
 
 @NEEDS_PROC
-@pytest.mark.parametrize("processes", [0, 2])
+@pytest.mark.parametrize("processes", [2, *nightly(0)])
 def test_costs_has_a_line_for_each_notebook(tmp_path, processes):
     for name, megabytes in (("small", 1), ("large", 200)):
         sources = (f"block = b'x' * ({megabytes} * 10**6)", "del block")

@@ -95,7 +95,7 @@ def test_each_page_opens_with_an_empty_console(book_html, chromium, watch, share
     assert problems == []
 
 
-@pytest.mark.parametrize("by", ["keys", "thumb"])
+@pytest.mark.parametrize("by", ["keys", *nightly("thumb")])
 def test_the_robot_on_the_cover_is_driven(book_html, chromium, watch, by):
     width, height = WIDTHS["desktop" if by == "keys" else "phone"]
     context = chromium.new_context(viewport={"width": width, "height": height}, has_touch=by == "thumb")

@@ -66,8 +66,7 @@ def visit(book_html, tabs):
     "which",
     [
         "book/intro",
-        "notebooks/3_robot/10_turtlebot3",
-        *nightly("search", "book/progress", "notebooks/6_simulators/40_rqt"),
+        *nightly("search", "book/progress", "notebooks/3_robot/10_turtlebot3", "notebooks/6_simulators/40_rqt"),
     ],
 )
 def test_tab_reaches_everything_and_leaves_the_page(visit, which):

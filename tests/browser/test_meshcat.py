@@ -88,35 +88,65 @@ def rviz_scene():
         return turnable(scene)
 
 
+def two_runs():
+    """A run, and the same one twice as fast."""
+    slow = run()
+    faster = replace(slow, times=slow.times / 2, scan_times=slow.scan_times / 2)
+    return replay_3d(slow, faster, names=["as it was", "twice as fast"])
+
+
+VIEWS = {
+    "robot": lambda: robot_3d(world("room"), BURGER, (0.3, 0.2, 0.4), np.full(360, 0.6)),
+    "waffle": lambda: robot_3d(world("room"), WAFFLE, (0.3, 0.2, 0.4)),
+    "replay": lambda: replay_3d(run()),
+    "urdf": lambda: urdf_3d(load("package://turtlebot3_description/urdf/turtlebot3_waffle.urdf.xacro")),
+    "gazebo": two_in_gazebo,
+    "rviz": rviz_scene,
+    "layered": layered,
+    "two": two_runs,
+}
+
+
+class Site:
+    """A folder with nested pages of a book and its scripts; beside them, live forms. Each is written when asked for."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.views = {}
+        shutil.copytree(STATIC, folder / "_static")
+        shutil.copyfile(asset_path(MESHCAT), folder / "_static" / MESHCAT)
+        (folder / "deep" / "er").mkdir(parents=True)
+
+    def __truediv__(self, path):
+        """A page: `deep/er/NAME.html` in the book's form, `alone_NAME.html` in the live one."""
+        place = self.folder / path
+        if not place.exists() and (name := place.stem.removeprefix("alone_")) in (*VIEWS, "three"):
+            place.write_text(self.alone(name) if name != place.stem else self.nested(name), encoding="utf-8")
+        return place
+
+    def view(self, name):
+        if name not in self.views:
+            self.views[name] = VIEWS[name]()
+        return self.views[name]
+
+    def nested(self, name):
+        """The page `three` has three pictures, two of them the same."""
+        chosen = ["robot", "replay", "robot"] if name == "three" else [name]
+        figures = "<p style='height:1200px'>far</p>".join(self.view(each)._html(book=True) for each in chosen)
+        style = '<link rel="stylesheet" href="../../_static/rosmini.css">'
+        head = HEAD.format(' data-content_root="../../"', style)
+        return f"{head}<body>{figures}</body></html>"
+
+    def alone(self, name):
+        return f"{HEAD.format('', '')}<body>{self.view(name).page}</body></html>"
+
+
+HEAD = '<!DOCTYPE html><html lang="en"{}><head><meta charset="utf-8"><title>t</title>{}</head>'
+
+
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
-    """A nested page of a book with three pictures, two of them the same, and its scripts; beside it, live forms."""
-    folder = tmp_path_factory.mktemp("site")
-    shutil.copytree(STATIC, folder / "_static")
-    shutil.copyfile(asset_path(MESHCAT), folder / "_static" / MESHCAT)
-    (folder / "deep" / "er").mkdir(parents=True)
-    views = {
-        "robot": robot_3d(world("room"), BURGER, (0.3, 0.2, 0.4), np.full(360, 0.6)),
-        "waffle": robot_3d(world("room"), WAFFLE, (0.3, 0.2, 0.4)),
-        "replay": replay_3d(run()),
-        "urdf": urdf_3d(load("package://turtlebot3_description/urdf/turtlebot3_waffle.urdf.xacro")),
-        "gazebo": two_in_gazebo(),
-        "rviz": rviz_scene(),
-        "layered": layered(),
-    }
-    faster = replace(run(), times=run().times / 2, scan_times=run().scan_times / 2)
-    views["two"] = replay_3d(run(), faster, names=["as it was", "twice as fast"])
-    head = '<head><meta charset="utf-8"><title>t</title><link rel="stylesheet" href="{}_static/rosmini.css"></head>'
-    for name, chosen in {**{n: [n] for n in views}, "three": ["robot", "replay", "robot"]}.items():
-        figures = "<p style='height:1200px'>far</p>".join(views[n]._html(book=True) for n in chosen)
-        document = '<!DOCTYPE html><html lang="en" data-content_root="../../">'
-        text = f"{document}{head.format('../../')}<body>{figures}</body></html>"
-        (folder / "deep" / "er" / f"{name}.html").write_text(text, encoding="utf-8")
-        alone = f'<!DOCTYPE html><html lang="en">{head.format("missing/")}<body>{views[chosen[0]].page}</body></html>'
-        (folder / f"alone_{name}.html").write_text(
-            alone.replace('<link rel="stylesheet" href="missing/_static/rosmini.css">', ""), encoding="utf-8"
-        )
-    return folder
+    return Site(tmp_path_factory.mktemp("site"))
 
 
 @pytest.fixture
@@ -155,8 +185,7 @@ def node(path):
     ("path", "scheme"),
     [
         ("deep/er/robot.html", "light"),
-        ("alone_robot.html", "dark"),
-        *nightly(("deep/er/robot.html", "dark"), ("alone_robot.html", "light")),
+        *nightly(("deep/er/robot.html", "dark"), ("alone_robot.html", "light"), ("alone_robot.html", "dark")),
     ],
 )
 def test_the_viewer_draws_the_scene_in_the_colours_of_the_page(open_page, shared_tmp, path, scheme):
@@ -186,6 +215,7 @@ def test_the_drawing_is_what_the_viewer_shows_first(open_page, path, shared_tmp)
     assert middles[0] == pytest.approx(middles[1], abs=0.04)
 
 
+@pytest.mark.nightly
 def test_a_narrow_page_shows_as_much_to_both_sides(open_page):
     page = open_page("deep/er/robot.html", width=390)
     sides = "viewer.camera.aspect / viewer.camera.zoom"
@@ -223,6 +253,7 @@ def test_a_scene_of_rviz_has_its_own_background_a_map_and_words(open_page, share
     assert viewer(page, f"{node('meshcat')}.children.filter((each) => each.isSprite).length") == 2
 
 
+@pytest.mark.nightly
 def test_the_page_follows_the_readers_change_of_theme(open_page):
     page = open_page("deep/er/robot.html")
     light = pixels(page)[-40:].mean()
@@ -276,6 +307,7 @@ def test_a_played_scan_is_the_recorded_one(open_page):
     assert points[45, :2] == pytest.approx([0, 1.5], abs=0.01)
 
 
+@pytest.mark.nightly
 def test_what_a_sweeping_laser_hit_lies_on_the_walls(open_page, site, turning, off_the_walls, shared_tmp):
     """Also between two scans, while the robot turns on."""
     (site / "turning.html").write_text(f"<!DOCTYPE html><title>t</title>{replay_3d(turning).page}", encoding="utf-8")
@@ -295,6 +327,7 @@ def test_what_a_sweeping_laser_hit_lies_on_the_walls(open_page, site, turning, o
     page.screenshot(path=shared_tmp / "meshcat-turning.png")
 
 
+@pytest.mark.nightly
 def test_the_player_has_the_controls_of_the_other_one(open_page):
     page = open_page("deep/er/replay.html")
     slider = page.get_by_role("slider", name="Time")
@@ -317,6 +350,7 @@ def test_the_player_has_the_controls_of_the_other_one(open_page):
     assert not page.get_by_role("checkbox", name="follow").is_checked()
 
 
+@pytest.mark.nightly
 def test_maps_and_plans_lie_on_the_ground_and_can_be_switched(open_page, shared_tmp):
     page = open_page("deep/er/layered.html")
     slider = page.get_by_role("slider", name="Time")
@@ -362,6 +396,7 @@ def test_lines_and_the_laser_can_be_switched(open_page):
         assert viewer(page, f"{node(path)}.visible") is False
 
 
+@pytest.mark.nightly
 def test_the_path_that_is_still_to_come_is_not_shown(open_page):
     page = open_page("deep/er/replay.html")
     line = f"{node('meshcat/trails/truth/<object>')}.geometry.attributes.position.array"
@@ -378,7 +413,8 @@ def test_the_path_that_is_still_to_come_is_not_shown(open_page):
         assert start == pytest.approx((0.0, 0.0), abs=0.02)
 
 
-@pytest.mark.parametrize(("scheme", "width"), [("light", 900), *nightly(("dark", 390))])
+@pytest.mark.nightly
+@pytest.mark.parametrize(("scheme", "width"), [("light", 900), ("dark", 390)])
 def test_two_runs_have_one_clock_and_one_bar_and_are_seen_from_the_same_side(open_page, shared_tmp, scheme, width):
     page = open_page("deep/er/two.html", scheme=scheme, width=width)
     page.locator("iframe").nth(1).scroll_into_view_if_needed()
@@ -471,6 +507,7 @@ def test_who_wants_less_motion_gets_a_picture_each_half_second(open_page):
     page.emulate_media(reduced_motion="null")
 
 
+@pytest.mark.nightly
 def test_the_wheel_is_the_pages_until_the_picture_is_clicked(open_page):
     page = open_page("deep/er/three.html")
     begin = camera(page)
@@ -498,6 +535,7 @@ def test_dragging_turns_it(open_page):
     assert np.linalg.norm(camera(page) - begin) > 0.1
 
 
+@pytest.mark.nightly
 def test_a_frame_that_is_taken_out_and_put_back_draws_again(open_page):
     page = open_page("alone_replay.html")
     page.get_by_role("slider", name="Time").fill("4")

@@ -14,6 +14,7 @@ print("hello", input("who? "), "from the robot")"""
 CELLS = ["%load_ext rosmini\n%roscore", ASK, "import rosmini\nrosmini.wait(2)"]
 
 
+@pytest.mark.nightly
 def test_what_is_typed_below_the_cell_is_what_the_script_reads(open_in_lab, chromium, shared_tmp):
     page = chromium.new_page(viewport={"width": 1280, "height": 1000})
     page.goto(open_in_lab(CELLS))

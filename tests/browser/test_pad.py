@@ -287,6 +287,7 @@ def test_a_robot_that_leans_against_a_wall_gets_away(bare):
     assert x == pytest.approx(simulator.truth()[0] - 0.4, abs=0.1)
 
 
+@pytest.mark.nightly
 def test_discs_and_corners_stop_a_robot(bare):
     """A robot drives in each direction, at obstacles low and high, at corners and at walls: it never gets through."""
     _, simulator = simulated()
@@ -343,6 +344,7 @@ def test_real_keys_drive_and_each_message_is_shown(show, name):
     assert "beams hit" in pad.page.locator(".rp-readings").inner_text()
 
 
+@pytest.mark.nightly
 def test_a_wall_stops_the_robot(show):
     pad = show("light")
     pad.stage.focus()
@@ -381,6 +383,7 @@ def test_the_arrows_and_the_space_bar_drive_and_the_page_does_not_scroll(show):
     assert pad.page.locator(".rp-command").inner_text() == sent
 
 
+@pytest.mark.nightly
 def test_capitals_and_other_alphabets_drive_too_but_shortcuts_of_the_browser_do_not(show):
     pad = show("light")
     pad.stage.focus()
@@ -551,6 +554,7 @@ def test_the_keys_of_another_program_and_a_dead_mans_switch(show):
     assert pad.page.locator(".rp-key").count() == 5
 
 
+@pytest.mark.nightly
 def test_a_gamepad_drives_while_its_switch_is_held(show):
     pad = show("light")
     pad.page.evaluate(
@@ -643,6 +647,7 @@ def test_the_pad_has_the_theme_of_its_page(show, name, shared_tmp):
         assert (max(text, ground) + 0.05) / (min(text, ground) + 0.05) >= 4.5, selector
 
 
+@pytest.mark.nightly
 def test_the_theme_can_change_while_it_is_open(show):
     pad = show("light")
     pad.page.evaluate("document.documentElement.dataset.theme = 'dark'")

@@ -32,7 +32,7 @@ def test_ticks_are_kept_exported_cleared_and_imported(book_html, phone, tmp_path
     phone.goto(progress)
     assert ticked(phone) == []  # the page was opened, and its end not seen
     phone.goto((book_html / f"{READ}.html").as_uri())
-    phone.keyboard.press("End")
+    phone.locator("footer.prev-next-footer").scroll_into_view_if_needed()
     phone.wait_for_function("localStorage.getItem('rosmini-progress')")
     phone.goto(progress)
     phone.locator("[data-exercises=gentle]").press("Space")

@@ -538,6 +538,7 @@ def test_the_theme_of_the_book_does_not_disturb_its_layout(book_html, opened, re
     assert count(page, "page", style.DARK) > 5000
 
 
+@pytest.mark.nightly
 def test_other_robots_and_what_moves_are_drawn_where_they_are(recording, write, opened):
     truth = recording.truth
     walker = Obstacle("walker", Cylinder(0.12), (2.4, 1.6, 0.0), colour="#102040")

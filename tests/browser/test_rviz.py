@@ -180,6 +180,7 @@ def test_each_tool_is_used_with_the_mouse_from_above_and_a_display_with_the_keyb
     use(False, act)
 
 
+@pytest.mark.nightly
 def test_in_three_dimensions_the_mouse_turns_the_scene_or_uses_the_tool(use, window):
     def act(hand):
         page = hand.page
