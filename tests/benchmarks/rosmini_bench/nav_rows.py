@@ -146,8 +146,9 @@ def _together(goals: Rows) -> Iterator[str]:
             reached, count = sum(one.reached for one in found), sum(one.count for one in found)
             low, high = wilson(reached, count)
             yield (
-                f"- All worlds, {localization}, seed {seed}: {reached} of {count} reached ({reached / count:.1%}; "
-                f"95% interval {low:.1%} to {high:.1%}), {sum(one.contacts for one in found)} with a contact."
+                f"- In all three worlds, with {localization} and seed {seed}, {reached} of {count} goals were reached "
+                f"({reached / count:.1%}; 95% interval {low:.1%} to {high:.1%}), with contacts in "
+                f"{sum(one.contacts for one in found)} drives."
             )
 
 
