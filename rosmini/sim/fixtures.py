@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rosmini.core.geometry.polygons import inside
 from rosmini.core.geometry.poses import Pose, transform_points
-from rosmini.sim.geometry.overlaps import Outline, Overlaps
+from rosmini.sim.geometry.overlaps import Outline, no_outlines
 
 from .shapes import ROUND, Simple, outline_at
 
@@ -24,7 +24,7 @@ class Fixtures:
     def __init__(self, walls: Floats, *, solid: bool) -> None:
         self._walls, self._solid = walls, solid
         self._boxes = np.hstack([np.minimum(walls[:, :2], walls[:, 2:]), np.maximum(walls[:, :2], walls[:, 2:])])
-        self._overlaps = Overlaps()
+        self._overlaps = no_outlines()
         self._bottoms: dict[str, float] = {}
 
     def insert(self, name: str, bottom: float, parts: Iterable[tuple[Simple, Pose]]) -> None:
@@ -59,7 +59,7 @@ class Fixtures:
         near = (self._boxes[:, :2] <= high).all(axis=1) & (self._boxes[:, 2:] >= low).all(axis=1)
         rows = np.flatnonzero(near).tolist()
         if rows:
-            walls = Overlaps()
+            walls = no_outlines()
             for row in rows:
                 walls.insert(row, Outline(self._walls[row].reshape(2, 2)))
             found = walls.find(outline)

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rosmini.core.geometry.poses import Pose, transform_points
+from rosmini.sim.geometry.outlines import Contact, contact
 from rosmini.sim.models import RobotModel
 from rosmini.sim.shapes import reach_of
 from rosmini.sim.world import Obstacle, World
@@ -19,7 +20,6 @@ from .ground import Cells, Ground
 from .instant import Instant
 from .kernels import PUSH_DEPTH, REST_SPEED, ROBOT
 from .movers import Mover
-from .outlines import Contact, contact
 from .robot import Robot
 from .scene import Loops, Near, contact_points
 

@@ -1,6 +1,6 @@
 """The loops of contact: robots pushed out of obstacles, pushed obstacles, and clearances.
 
-All bodies are convex outlines with a radius: see `rosmini.sim.engine.outlines`.
+All bodies are convex outlines with a radius: see `rosmini.sim.geometry.outlines`.
 
 Collisions and pushes are sequential impulses (Catto, Iterative dynamics with temporal coherence, GDC 2005) that start
 from zero in each step, with a fixed number of iterations over the contacts in the order of the bodies' names. No data
@@ -20,8 +20,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.geometry.machine_code import machine_code
-
-from .outlines import NONE, Contact, contact, contact_disc, facing, gap, height, nearest_side, parting
+from rosmini.sim.geometry.outlines import (
+    NONE,
+    Contact,
+    contact,
+    contact_disc,
+    facing,
+    gap,
+    height,
+    nearest_side,
+    parting,
+)
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.geometry.poses import Pose
+from rosmini.sim.geometry.outlines import Contact
 
 from .bodies import Body, Surface
 from .ground import FixedPiece, Ground
 from .kernels import PLAIN, ROBOT, Scene, compiled
-from .outlines import Contact
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from rosmini.core.geometry import polygons
 from rosmini.core.geometry.errors import GeometryError
 
-from .overlaps import Outline, Overlaps
+from .overlaps import Outline, no_outlines
 
 Floats = NDArray[np.float64]
 
@@ -131,7 +131,7 @@ def _overlapping(outlines: list[Floats]) -> bool:
     """Return whether any two of some simple polygons overlap."""
     if len(outlines) < 2:
         return False
-    seen = Overlaps()
+    seen = no_outlines()
     for number, outline in enumerate(outlines):
         if seen.find(Outline(outline)):
             return True

@@ -8,7 +8,7 @@ import pytest
 
 from rosmini.core.geometry import polygons
 from rosmini.sim.engine import Engine
-from rosmini.sim.geometry.overlaps import Outline, Overlaps
+from rosmini.sim.geometry.overlaps import Outline, no_outlines
 from rosmini.sim.models import BURGER, WAFFLE
 from rosmini.sim.motion import Walk
 from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World, WorldError
@@ -127,7 +127,7 @@ def test_five_hundred_spawns_and_deletions_leave_nothing_behind():
 
 
 def overlap(one, other):
-    there = Overlaps()
+    there = no_outlines()
     there.insert("other", other)
     return bool(there.find(one))
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from rosmini.sim.engine import outlines
+from rosmini.sim.geometry import outlines
 
 pymunk = pytest.importorskip("pymunk")
 

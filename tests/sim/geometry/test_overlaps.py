@@ -1,40 +1,45 @@
-"""What overlaps: polygons, segments and discs; labels; and what is said without pymunk."""
-
-import sys
+"""What overlaps: polygons, segments and discs; labels; with pymunk and without."""
 
 import numpy as np
 import pytest
 from hypothesis import assume, given
 
-from rosmini.core.errors import RosminiError
 from rosmini.core.geometry import polygons
-from rosmini.sim.geometry import overlaps
-from rosmini.sim.geometry.overlaps import Outline, Overlaps
+from rosmini.sim.geometry.overlaps import Outline, PlainOverlaps, PymunkOverlaps, no_outlines
 
 from ...core.geometry.test_polygons import ELL, SQUARE, stars
 
+KINDS = [PymunkOverlaps, PlainOverlaps]
+
+
+def found(insert, probe):
+    """Whether two outlines overlap, which must not depend on the kind."""
+    answers = set()
+    for kind in KINDS:
+        there = kind()
+        there.insert("a", insert)
+        answers.add(there.find(probe) == {"a"})
+    assert len(answers) == 1
+    return answers.pop()
+
 
 def overlap(a, b):
-    there = Overlaps()
-    there.insert("a", Outline(a))
-    return there.find(Outline(b)) == {"a"}
+    return found(Outline(a), Outline(b))
 
 
 def overlaps_disc(outline, x, y, radius):
-    there = Overlaps()
-    there.insert("disc", Outline(np.array([[x, y]]), radius))
-    return bool(there.find(Outline(outline)))
+    return found(Outline(np.array([[x, y]]), radius), Outline(outline))
 
 
 @given(stars, stars)
 def test_polygons_overlap_if_they_have_a_point_in_common(a, b):
     grid = np.stack(np.meshgrid(np.linspace(-2.5, 2.5, 101), np.linspace(-2.5, 2.5, 101)), -1).reshape(-1, 2)
     common = polygons.inside(grid, polygons.sides_of(a)) & polygons.inside(grid, polygons.sides_of(b))
-    found = overlap(a, b)
-    assert found == overlap(b, a)
+    is_overlap = overlap(a, b)
+    assert is_overlap == overlap(b, a)
     if common.any():
-        assert found
-    elif found:  # then less than what lies between the points of the grid
+        assert is_overlap
+    elif is_overlap:  # then less than what lies between the points of the grid
         gap = polygons.distances(a, polygons.sides_of(b)).min()
         other = polygons.distances(b, polygons.sides_of(a)).min()
         assume(min(gap, other) > 0.1)
@@ -62,10 +67,25 @@ def test_discs_overlap_polygons():
     assert not overlaps_disc(ELL, 2, 2, 1.0)
 
 
-def test_without_pymunk_the_error_says_what_to_do(monkeypatch):
-    overlaps._pymunk.cache_clear()
-    monkeypatch.setitem(sys.modules, "pymunk", None)
-    with pytest.raises(RosminiError, match="Windows on ARM"):
-        Overlaps()
-    monkeypatch.undo()
-    assert Overlaps().find(Outline(SQUARE)) == set()
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_removed_label_is_not_found(kind):
+    there = kind()
+    for label, x in (("left", 0.0), ("right", 0.8), ("left", 0.4)):
+        there.insert(label, Outline(SQUARE + (x, 0.0)))
+    assert there.find(Outline(SQUARE)) == {"left", "right"}
+    there.remove("left")
+    there.remove("nothing")
+    assert there.find(Outline(SQUARE)) == {"right"}
+
+
+def test_a_wall_crosses_a_robot_from_any_side():
+    wall = Outline(np.array([[0.0, 0.5], [2.0, 0.5]]))
+    assert found(wall, Outline(SQUARE))
+    assert found(wall, Outline(np.array([[1.0, 0.6]]), 0.2))
+    assert not found(wall, Outline(SQUARE + (2.0, 0.0)))
+    assert not found(wall, Outline(np.array([[1.0, 0.8]]), 0.2))
+
+
+def test_without_pymunk_the_engine_finds_them(monkeypatch):
+    monkeypatch.setattr("rosmini.sim.geometry.overlaps._pymunk", lambda: None)
+    assert isinstance(no_outlines(), PlainOverlaps)
