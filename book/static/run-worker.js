@@ -1,9 +1,11 @@
 /* The Python in which run.js runs the cells of a page: Pyodide, and the packages of the book.
 
-   It gets {kind: "run", source}, {kind: "stop"} and {kind: "answer", text}, and posts {kind: "ready"},
-   {kind: "output", output}, {kind: "ask", prompt}, {kind: "done", isComplete} and {kind: "failed", text}. */
+   It gets {kind: "run", source}, {kind: "stop"}, {kind: "answer", text} and {kind: "hear", id, text}, and posts
+   {kind: "ready"}, {kind: "output", output}, {kind: "ask", prompt}, {kind: "done", isComplete} and
+   {kind: "failed", text}. */
 
 const CORE = "https://cdn.jsdelivr.net/npm/pyodide@0.29.5/";
+const PACKAGES = "https://cdn.jsdelivr.net/pyodide/v0.29.5/full/"; // their hashes are in pyodide-lock.json
 const HASHES = {
   "pyodide.mjs": "sha256-UQyhQwUjABj1DED7gb5nOv1oCA5wzncz/M5mAN1qFxQ=",
   "pyodide.asm.js": "sha256-NWxC9p4WlTl+nYZwvTwuZ4JIzeduGL2uFzHoSFN7R9c=",
@@ -42,7 +44,7 @@ async function start() {
   await load(core[`${CORE}pyodide.asm.js`]);
   const fetchAny = self.fetch;
   self.fetch = async (address) => new Response(core[address], { headers: { "Content-Type": "application/wasm" } });
-  const pyodide = await loadPyodide({ indexURL: CORE });
+  const pyodide = await loadPyodide({ indexURL: CORE, packageBaseUrl: PACKAGES });
   self.fetch = fetchAny;
   pyodide.unpackArchive(packages, "zip", { extractDir: "/packages" });
   pyodide.runPython("import sys; sys.path.append('/packages')");
@@ -54,13 +56,22 @@ async function start() {
       self.postMessage({ kind: "ask", prompt });
       return answer.promise;
     },
+    async (name) => {
+      const errors = [];
+      await pyodide.loadPackage(name, { messageCallback() {}, errorCallback: (text) => errors.push(text) });
+      if (errors.length) throw new Error(errors.join(" "));
+    },
   );
   self.postMessage({ kind: "ready" });
 }
 
-async function act({ kind, source, text }) {
+async function act({ kind, id, source, text }) {
   if (kind === "run") {
     self.postMessage({ kind: "done", isComplete: await python.run.callPromising(source) });
+    return;
+  }
+  if (kind === "hear") {
+    python.hear(id, text);
     return;
   }
   if (kind === "answer") answer.resolve(text);

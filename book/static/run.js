@@ -14,6 +14,7 @@
   let cells = [];
   let queue = []; // cells that run next
   let running = null; // the cell that runs
+  let latest = null; // the cell that ran last
   let isStopping = false;
   let notice = ""; // precedes READY
 
@@ -24,7 +25,7 @@
   status.setAttribute("role", "status");
   status.textContent =
     `Runs the cells in your browser. Loads ${dataset.megabytes} MB: ` +
-    "Python from cdn.jsdelivr.net, and the library from this site.";
+    "Python and its packages from cdn.jsdelivr.net, and the library from this site.";
   panel.append(button, status);
   document.querySelector(".bd-article h1").after(panel);
 
@@ -92,6 +93,8 @@
     if (running) {
       running.caption?.querySelector(":scope > .output")?.remove();
       running.outputs.replaceChildren(...[running.caption].filter(Boolean));
+      closePages(({ host }) => !host.isConnected);
+      latest = running;
       worker.postMessage({ kind: "run", source: running.editor.value });
     }
     show(running ? `Cell ${running.number} of ${cells.length} runs.` : undefined);
@@ -99,8 +102,7 @@
 
   function stop() {
     if (isStopping) {
-      worker.terminate();
-      worker = null;
+      end();
       notice = `${RESTARTED} `;
       finish();
       load();
@@ -132,7 +134,7 @@
   }
 
   function add({ kind, name, text, data }) {
-    const { outputs, caption } = running;
+    const { outputs, caption } = running ?? latest;
     const last = outputs.lastElementChild;
     const className = { error: "traceback", stream: name === "stderr" ? "stderr" : "stream", data: "" }[kind];
     if (kind === "stream" && last?.classList.contains(className)) {
@@ -169,6 +171,39 @@
     line.focus();
   }
 
+  /* The pages of live views: pads and panels. Each talks to an object of Python with the same number, as an anywidget
+     does to its model. */
+  const pages = new Map();
+  const viewOf = ({ base64 }) => new DataView(Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0)).buffer);
+
+  globalThis.rosminiPage = {
+    mount(host, { id, driver, data }, { asset }) {
+      const heard = new Set();
+      const state = { data: Object.fromEntries(Object.entries(data).map(([k, v]) => [k, v?.base64 ? viewOf(v) : v])) };
+      const model = {
+        get: (name) => state[name],
+        on: (name, callback) => name === "msg:custom" && heard.add(callback),
+        off: (name, callback) => heard.delete(callback),
+        send: (content) => worker?.postMessage({ kind: "hear", id, text: JSON.stringify(content) }),
+      };
+      globalThis.rosminiAsset ??= asset;
+      const page = { host, heard };
+      pages.set(id, page);
+      page.close = globalThis[driver].render({ model, el: host });
+    },
+  };
+
+  function tell({ id, content, buffers }) {
+    for (const callback of [...(pages.get(id)?.heard ?? [])]) callback(content, buffers.map(viewOf));
+  }
+
+  function closePages(which) {
+    for (const [id, page] of [...pages].filter(([, each]) => which(each))) {
+      pages.delete(id);
+      page.close?.();
+    }
+  }
+
   const ACTIONS = {
     ready() {
       if (!cells.length) cells = [...document.querySelectorAll(".bd-article div.cell:has(.cell_input)")].map(editable);
@@ -176,7 +211,7 @@
       button.disabled = false;
       show(notice + READY);
     },
-    output: ({ output }) => running && add(output),
+    output: ({ output }) => (output.kind === "tell" ? tell(output) : add(output)),
     ask: ({ prompt }) => ask(prompt),
     done({ isComplete }) {
       running.outputs.querySelector(".run-ask")?.remove();
@@ -186,12 +221,19 @@
       run(rest);
     },
     failed({ text }) {
-      worker.terminate();
-      worker = null;
+      end();
       button.disabled = false;
       finish(`Python ended: ${text}`);
     },
   };
+
+  function end() {
+    worker.terminate();
+    worker = null;
+    const content = { type: "gone", text: "Python has ended: run the cell again." };
+    for (const id of pages.keys()) tell({ id, content, buffers: [] });
+    closePages(() => true);
+  }
 
   function load() {
     button.disabled = true;

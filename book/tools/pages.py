@@ -40,8 +40,11 @@ IN_SCRIPT = re.compile(r"\b(?:import\s*\(?|from|fetch\(|importScripts\(|require\
 # What other scripts have no use for, whatever the address.
 ASKING = re.compile(r"\b(fetch\(|XMLHttpRequest|WebSocket|EventSource|sendBeacon|importScripts|import\(|connect\()")
 ADDRESS = re.compile(r"(?:https?|wss?)://[^\s\"'`)]+")
-ASKS = {"run-worker.js": "https://cdn.jsdelivr.net/npm/pyodide@0.29.5/"}
-"""The one script that asks for something, after the reader has pressed a button, and the one address that it asks."""
+ASKS = {
+    "run-worker.js": ("https://cdn.jsdelivr.net/npm/pyodide@0.29.5/", "https://cdn.jsdelivr.net/pyodide/v0.29.5/full/")
+}
+"""The one script that asks for something, after the reader has pressed a button, and the two folders of Pyodide (its
+own files, and its packages) that it asks."""
 OWN = {"pictures.js", "progress.js", "run.js", "run-worker.js"}
 """The scripts of `book/static`."""
 # The names of XML's vocabularies look like addresses; nothing is fetched from there.
@@ -116,7 +119,7 @@ class Page(HTMLParser):
             self.problems += [f"in a frame: {problem}" for problem in inner.problems]
 
 
-def script_problems(text: str, *, ours: bool = True, asks: str | None = None) -> list[str]:
+def script_problems(text: str, *, ours: bool = True, asks: tuple[str, ...] | None = None) -> list[str]:
     """What a script may not contain; one that is not `ours` may have code that never runs, and one may ask `asks`."""
     harmless = NAMESPACES if ours else NAMESPACES | UNUSED
     found = (address for address in ADDRESS.findall(text) if asks is None or not address.startswith(asks))

@@ -17,11 +17,18 @@ if TYPE_CHECKING:
 
     from sphinx.application import Sphinx
 
-PAGES = ("notebooks/4_files/50_catkin", "notebooks/4_files/40_from_scratch")
-"""The pages whose cells run in the browser: none of them needs numpy."""
+PAGES = {
+    "notebooks/4_files/50_catkin": (),
+    "notebooks/4_files/40_from_scratch": (),
+    "notebooks/1_start/10_first_steps": ("numpy", "pillow"),
+}
+"""The pages whose cells run in the browser, and the packages of Pyodide that they import."""
 
 CORE_MB = 5.5
 """Size of Pyodide's own files, as they are sent [MB]."""
+
+PACKAGE_MB = {"numpy": 3.6, "pillow": 1.3}
+"""Sizes of Pyodide's packages [MB]."""
 
 PURE = [
     "asttokens",
@@ -88,7 +95,11 @@ def add_packages(app: Sphinx) -> None:
 def add_button(app: Sphinx, pagename: str, *_: Any) -> None:
     """Add the script of the button to the pages that have it."""
     if pagename in PAGES and app.builder.name == "html":
-        size = CORE_MB + Path(app.outdir, "_static", "packages.zip").stat().st_size / 1e6
+        size = (
+            CORE_MB
+            + sum(PACKAGE_MB[name] for name in PAGES[pagename])
+            + Path(app.outdir, "_static", "packages.zip").stat().st_size / 1e6
+        )
         attributes: dict[str, Any] = {"data-megabytes": f"{size:.0f}"}
         app.add_js_file("run.js", loading_method="defer", **attributes)
 

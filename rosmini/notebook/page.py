@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import builtins
 import io
 import json
@@ -10,6 +11,8 @@ import re
 import signal
 import sys
 from contextlib import suppress
+from importlib import invalidate_caches
+from importlib.abc import MetaPathFinder
 from typing import TYPE_CHECKING, Any
 
 from IPython.core.displayhook import DisplayHook
@@ -17,7 +20,9 @@ from IPython.core.displaypub import DisplayPublisher
 from IPython.core.interactiveshell import InteractiveShell
 from pyodide.ffi import JsException, run_sync
 
-from rosmini.viz.embed import BOOK, VARIABLE
+from rosmini.core.graph.live import LoopDrive
+from rosmini.viz.embed import PAGE, VARIABLE
+from rosmini.viz.live.own_widget import OwnWidget
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Mapping
@@ -25,12 +30,19 @@ if TYPE_CHECKING:
 _COLOURS = re.compile(r"\x1b\[[0-9;]*m")
 
 
-def start(post: Callable[[str], object], ask: Callable[[str], Awaitable[str]]) -> None:
+PACKAGES = {"numpy": "numpy", "PIL": "pillow", "matplotlib": "matplotlib"}
+"""Modules of Pyodide's packages, which are loaded when they are first imported, and the names of these packages."""
+
+
+def start(
+    post: Callable[[str], object], ask: Callable[[str], Awaitable[str]], load: Callable[[str], Awaitable[object]]
+) -> None:
     """Begin a session.
 
     Each output is posted as JSON: ``{"kind": "stream", "name": ..., "text": ...}``,
-    ``{"kind": "data", "data": {MIME type: text}}`` or ``{"kind": "error", "text": ...}``. ``ask`` returns a promise of
-    the line that ``input(prompt)`` returns.
+    ``{"kind": "data", "data": {MIME type: text}}`` or ``{"kind": "error", "text": ...}``; so is what a live view tells
+    its page: ``{"kind": "tell", "id": ..., "content": ..., "buffers": ...}``. ``ask`` returns a promise of the line
+    that ``input(prompt)`` returns, and ``load`` one that is settled when a package can be imported.
     """
 
     def send(**output: Any) -> None:
@@ -42,24 +54,58 @@ def start(post: Callable[[str], object], ask: Callable[[str], Awaitable[str]]) -
         except JsException as error:  # the reader has stopped it
             raise KeyboardInterrupt from error
 
-    os.environ[VARIABLE] = BOOK
+    os.environ[VARIABLE] = PAGE
     shell: Any = PageShell.instance()
     shell.history_manager.enabled = False
     shell.send = shell.display_pub.send = shell.displayhook.send = send
+    OwnWidget.post = send
     builtins.input = read_line
+    sys.meta_path.insert(0, PackageFinder(load))
     sys.stdout, sys.stderr = PageStream("stdout", send), PageStream("stderr", send)
 
 
 def run(source: str) -> bool:
     """Run a cell; return whether it ended without an error. JavaScript calls this with ``callPromising``."""
     shell: Any = PageShell.instance()
-    return bool(shell.run_cell(source, store_history=True).success)
+    while LoopDrive.is_busy:
+        run_sync(asyncio.sleep(0))
+    LoopDrive.is_busy = True
+    try:
+        return bool(shell.run_cell(source, store_history=True).success)
+    finally:
+        LoopDrive.is_busy = False
 
 
 def stop() -> None:
     """End the cell that runs, as soon as graph time passes in it."""
     with suppress(KeyboardInterrupt):  # nothing runs that could end
         signal.raise_signal(signal.SIGINT)
+
+
+def hear(number: int, text: str) -> None:
+    """Take a message, in JSON, from the page of a live view."""
+    OwnWidget.opened[number].hear(json.loads(text))
+
+
+class PackageFinder(MetaPathFinder):
+    """Loads Pyodide's packages when they are first imported."""
+
+    def __init__(self, load: Callable[[str], Awaitable[object]]) -> None:
+        self._load = load
+        self._packages = dict(PACKAGES)
+
+    def find_spec(self, name: str, path: object = None, target: object = None) -> None:  # noqa: ARG002
+        """Load the package that has a module; the other finders then find it."""
+        package = self._packages.get(name)
+        if package is None:
+            return
+        try:
+            run_sync(self._load(package))
+        except JsException as error:
+            msg = f"the package {package} could not be loaded, or its content has changed ({error.message})"
+            raise ImportError(msg) from None
+        del self._packages[name]
+        invalidate_caches()
 
 
 class PageStream(io.TextIOBase):

@@ -252,7 +252,7 @@ class MovingView(View):
         return self.svg
 
     def _images(self) -> dict[str, bytes]:
-        return {SVG_MIME: self.svg.encode()}
+        return {} if page_form() else {SVG_MIME: self.svg.encode()}
 
     @property
     def html(self) -> str:
@@ -265,9 +265,10 @@ class MovingView(View):
         return self._html(book=False)
 
     def _html(self, book: bool | None) -> str:
+        still = element("p", escape(self.alt)) if page_form() else self.fallback
         return embed(
             self.scripts, self.call, self.data, title=self.name, alt=self.alt, height=self.height,
-            fallback_html=self.fallback, caption=self.title, assets=self.assets, book=book,
+            fallback_html=still, caption=self.title, assets=self.assets, book=book,
         )  # fmt: skip
 
 
@@ -275,12 +276,22 @@ class MovingView(View):
 
 VARIABLE = "ROSMINI_DISPLAY"
 BOOK = "book"
+PAGE = "page"
 
 
 def book_form() -> bool:
-    """True if outputs are made for the book: the environment has `ROSMINI_DISPLAY=book`.
+    """True if outputs are made for the book: the environment has `ROSMINI_DISPLAY=book` (or `page`).
 
     `python -m book.tools.notebooks execute` and the tests set it for the kernels that they start, so that committed
     outputs hold small HTML that refers to the book's scripts. Elsewhere a view's HTML contains its scripts.
     """
-    return os.environ.get(VARIABLE) == BOOK
+    return os.environ.get(VARIABLE) == BOOK or page_form()
+
+
+def page_form() -> bool:
+    """True on a page of the book that runs its own cells: `ROSMINI_DISPLAY=page`, set by `rosmini.notebook.page`.
+
+    Its outputs have the form of the book, but live views are connected to their graph, and moving pictures have no
+    still picture, which matplotlib would have to draw.
+    """
+    return os.environ.get(VARIABLE) == PAGE

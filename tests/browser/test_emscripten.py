@@ -80,6 +80,17 @@ except KeyboardInterrupt:
 ended
 """
 
+WORK_BEFORE_A_LIVE_GRAPH = """
+from rosmini import Graph
+
+graph, done = Graph(), []
+graph.before_live(lambda: done.append("compiled"))
+graph.live()
+graph.run(1)
+graph.live().stop()
+", ".join(done)
+"""
+
 A_CALL_THAT_MAY_NOT_BLOCK = """
 from pyodide.code import run_js
 from rosmini import Graph, RosminiError
@@ -128,6 +139,10 @@ def test_the_page_s_events_arrive_during_a_wait(page):
 
 def test_an_interrupt_ends_a_run_in_simulated_time(page):
     assert page.evaluate("run", AN_INTERRUPT_OF_AN_ENDLESS_RUN) == "interrupted"
+
+
+def test_work_for_a_helper_thread_is_done_without_one(page):
+    assert page.evaluate("run", WORK_BEFORE_A_LIVE_GRAPH) == "compiled"
 
 
 def test_a_call_from_javascript_that_may_not_block_is_refused(page):

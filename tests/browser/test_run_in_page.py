@@ -3,13 +3,14 @@
 ROSMINI_PYODIDE names the folder of npm's package `pyodide`: its files are sent in place of the same ones on jsDelivr.
 """
 
+import json
 from mimetypes import guess_type
 
 import pytest
 
 from book.tools import notebooks
 from book.tools.pages import ASKS
-from book.tools.run_in_page import PAGES
+from book.tools.run_in_page import PACKAGE_MB, PAGES
 from book.tools.solutions import checks, solved
 
 from .test_book_pages import SETTLES, violations_of
@@ -17,11 +18,28 @@ from .test_book_pages import SETTLES, violations_of
 pytestmark = pytest.mark.browser
 
 SITE = "http://book.test/"
-CDN = ASKS["run-worker.js"]
-FIRST = PAGES[0]
+CDN, PACKAGES = ASKS["run-worker.js"]
+WITHOUT_NUMPY = [name for name, packages in PAGES.items() if not packages]
+FIRST = WITHOUT_NUMPY[0]
+
+FROM_CDN = {"Access-Control-Allow-Origin": "*"}
 
 TEXTS = """Array.from(document.querySelectorAll(".bd-article .cell"), (cell) =>
     Array.from(cell.querySelectorAll(".output > .highlight > pre"), (text) => text.textContent.trimEnd()))"""
+
+PANEL = """
+%load_ext rosmini
+%roscore
+%rqt_logger_level
+"""
+
+LIVE = """
+from rosmini import Graph
+graph = Graph()
+for number in range(20):
+    graph.node(f"clock{number}").timer(0.001, lambda event: None)
+print(graph.live())
+"""
 
 ENDLESS_RUN = """
 from rosmini import Graph
@@ -43,8 +61,8 @@ def served(chromium, book_html):
         def send(route):
             file = pyodide / route.request.url.removeprefix(CDN)
             kind = guess_type(file.name)[0] or "application/octet-stream"
-            headers = {"Access-Control-Allow-Origin": "*", "Content-Type": kind}
-            route.fulfill(body=change(file.name, file.read_bytes()), headers=headers)
+            body = change(file.name, file.read_bytes())
+            route.fulfill(body=body, headers=FROM_CDN | {"Content-Type": kind})
 
         def send_page(route):
             route.fulfill(path=book_html / route.request.url.removeprefix(SITE).partition("?")[0])
@@ -57,6 +75,7 @@ def served(chromium, book_html):
         context.route(f"{SITE}**", send_page)
         if pyodide:
             context.route(f"{CDN}**", send)
+            context.route(f"{PACKAGES}**", lambda route: route.fulfill(body=b"not the package", headers=FROM_CDN))
         page = context.new_page()
         page.goto(f"{SITE}{name}.html")
         return page, asked
@@ -92,7 +111,7 @@ def running(served, pyodide):
 
 
 @pytest.mark.nightly
-@pytest.mark.parametrize("name", PAGES)
+@pytest.mark.parametrize("name", WITHOUT_NUMPY)
 def test_all_cells_of_a_page_print_what_the_book_shows(served, pyodide, name):
     page, asked = served(name, pyodide)
     stored = page.evaluate(TEXTS)
@@ -145,6 +164,20 @@ def test_a_cell_that_waits_is_stopped(running, source):
     cell.get_by_text("KeyboardInterrupt").first.wait_for()
 
 
+def test_a_panel_acts_on_the_graph(running):
+    cell = last_cell(running, PANEL)
+    cell.get_by_label("Node").select_option("/rosout")
+    cell.get_by_role("cell", name="rosout", exact=True).wait_for()
+
+
+def test_no_cell_begins_while_a_live_graph_is_driven(running):
+    last_cell(running, LIVE).get_by_text("<live graph").wait_for()
+    for number in range(5):
+        cell = last_cell(running, f"print({number}, graph.is_live, graph.scheduler.driven)")
+        cell.get_by_text(f"{number} True False").wait_for()
+    last_cell(running, "graph.live().stop()\nprint('stopped')").get_by_text("stopped").wait_for()
+
+
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_axe_finds_nothing_on_a_page_that_runs(running, scheme):
     running.emulate_media(color_scheme=scheme)
@@ -173,6 +206,27 @@ def test_a_file_of_pyodide_that_was_changed_is_refused(served, pyodide):
     page, _ = served(FIRST, pyodide, change=lambda name, body: body + b" " * (name == "pyodide-lock.json"))
     press(page)
     wait_for(page, f"Python ended: {CDN}pyodide-lock.json could not be loaded, or its content has changed")
+
+
+def test_a_package_is_asked_for_when_it_is_imported_and_refused_if_it_was_changed(served, pyodide):
+    page, asked = served(FIRST, pyodide)
+    press(page)
+    wait_for(page, "Ready.")
+    assert not [url for url in asked if url.startswith(PACKAGES)]
+    last_cell(page, "import numpy").get_by_text("ImportError: the package numpy could not be loaded").wait_for()
+    lock = json.loads((pyodide / "pyodide-lock.json").read_text(encoding="utf-8"))
+    file = lock["packages"]["numpy"]["file_name"]
+    assert {url for url in asked if url.startswith(PACKAGES)} == {PACKAGES + file}
+
+
+def test_the_button_says_how_much_is_loaded_before_anything_is(served):
+    sizes = {}
+    for name in (FIRST, "notebooks/1_start/10_first_steps"):
+        page, asked = served(name)
+        text = page.locator(".run-panel").get_by_role("status").inner_text()
+        sizes[name] = int(text.partition("Loads ")[2].partition(" MB")[0])
+        assert not [url for url in asked if "worker" in url or "packages" in url or not url.startswith(SITE)]
+    assert sizes["notebooks/1_start/10_first_steps"] - sizes[FIRST] == round(PACKAGE_MB["numpy"] + PACKAGE_MB["pillow"])
 
 
 def test_a_page_from_a_file_names_the_command_that_serves_the_book(book_html, tabs):

@@ -12,7 +12,7 @@ import signal
 import sys
 import time
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from rosmini.core.errors import ROSInterruptException, RosminiError
 
@@ -50,6 +50,9 @@ STOPPED = (
 class LoopDrive(ABC):
     """Drives ``graph`` in slices in ``loop`` until :meth:`stop`, or until :meth:`is_finished` returns True."""
 
+    is_busy: ClassVar[bool] = False
+    """Whether a slice or, on a page of the book, a cell runs. Without this, promises would let one begin in another."""
+
     def __init__(self, graph: Graph, loop: asyncio.AbstractEventLoop) -> None:
         self.graph = graph
         self.running = True
@@ -77,13 +80,20 @@ class LoopDrive(ABC):
         try:
             if self._noted:
                 raise KeyboardInterrupt  # as an interrupt during a slice would
-            if not self.graph.scheduler.driven:
-                delay = self._slice()
+            if not (self.graph.scheduler.driven or LoopDrive.is_busy):
+                delay = self._slice_alone()
         except BaseException as error:  # there is no call at which to raise it
             self.stop()
             self._failed(error)
         if self.running:
             self._loop.call_later(delay, self._step)
+
+    def _slice_alone(self) -> float:
+        LoopDrive.is_busy = True
+        try:
+            return self._slice()
+        finally:
+            LoopDrive.is_busy = False
 
     @abstractmethod
     def _slice(self) -> float:

@@ -27,7 +27,7 @@ from .event_queue import ROUNDS_PER_INSTANT, TICK_QUANTUM_NS, EventQueue
 from .lanes import Lane, LaneContext, LaneExit, RemoteWaiter, Waiter
 from .notebook import CellOutput, kernel_shell
 from .report import RunReport, Waiting, ended
-from .stacks import HAS_THREADS, getcurrent, greenlet
+from .stacks import getcurrent, greenlet
 from .threads import MAIN_THREAD, InterruptGuard, Worker, adopt_thread, start_workers, work
 
 T = TypeVar("T")
@@ -208,7 +208,7 @@ class Scheduler(EventQueue):
 
     def in_thread(self, function: Callable[[], T]) -> T:
         """Return ``function()``, a blocking call of the operating system, run in a thread; the caller is parked."""
-        return threads.in_thread(self, function) if HAS_THREADS and self.is_scheduler_thread() else function()
+        return threads.in_thread(self, function) if self.is_scheduler_thread() else function()
 
     def acquire_scheduler(self, *, to_wait: bool = False) -> bool:
         """Move the scheduler to the calling thread, which is about to drive; return False if it is bound to another.

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 from rosmini.core.errors import ROSInterruptException
 
 from .lanes import Lane, LaneExit, Waiter
-from .stacks import GreenletExit, getcurrent, greenlet
+from .stacks import HAS_THREADS, GreenletExit, getcurrent, greenlet
 
 if TYPE_CHECKING:
     import weakref
@@ -221,7 +221,12 @@ def run_beside(scheduler: Scheduler, until_ns: int | None, until: Callable[[], b
 
 
 def in_thread(scheduler: Scheduler, function: Callable[[], T], *, hold: bool = True) -> T:
-    """Return ``function()``, run in a helper thread while the lane is parked; ``hold`` stops simulated time."""
+    """Return ``function()``, run in a helper thread while the lane is parked; ``hold`` stops simulated time.
+
+    Where Python has no threads it runs at once.
+    """
+    if not HAS_THREADS:
+        return function()
     waiter = Waiter(scheduler, "the operating system")
     if hold:
         scheduler.hold()

@@ -16,7 +16,7 @@ import numpy as np
 
 from rosmini.msgs import message_class
 
-from .page import module, pad_data, scripts_of
+from .page import pad_data, scripts_of
 from .teleop import TeleopError
 
 try:
@@ -73,8 +73,7 @@ class Link(PageLink):
         self._scan: NDArray[np.float32] | None = None
         """A scan not yet sent to the page: ranges (beams,), then the robot's pose at each beam (beams, 3)."""
         self._scans: Subscriber | None = None
-        script = module((*scripts_of(pad), "rosmini-pad-kernel.js"), "rosminiPadKernel")
-        super().__init__(script, self._data(), clock)
+        super().__init__((*scripts_of(pad), "rosmini-pad-kernel.js"), "rosminiPadKernel", self._data(), clock)
         pad.on_publish(self._published)
 
     def _data(self) -> dict[str, Any]:

@@ -7,7 +7,7 @@ from collections.abc import Collection
 from typing import Any
 
 from rosmini.core.graph.notebook import has_reader
-from rosmini.viz.embed import book_form
+from rosmini.viz.embed import book_form, page_form
 from rosmini.viz.view import MimeBundle, View
 
 
@@ -30,7 +30,7 @@ class LiveView(View):
     def _repr_mimebundle_(
         self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
     ) -> MimeBundle:
-        if book_form() or not has_reader():
+        if not page_form() and (book_form() or not has_reader()):
             return super()._repr_mimebundle_(include, exclude)
         data, metadata = self.link.widget._repr_mimebundle_() or ({}, {})
         return {**data, "text/plain": self.text}, metadata

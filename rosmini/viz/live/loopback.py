@@ -168,8 +168,8 @@ class PageServer:
     # -- to the pages, from the graph's thread -------------------------------------------------------------------
 
     def _send(self, content: dict[str, Any], buffers: list[bytes] | None = None) -> None:
-        packed = [base64.b64encode(each).decode() for each in buffers or ()]
-        event = json.dumps({"content": content, "buffers": packed}, default=_packed)
+        encoded = [base64.b64encode(each).decode() for each in buffers or ()]
+        event = json.dumps({"content": content, "buffers": encoded}, default=packed)
         with self._lock:
             for page in list(self._pages):
                 try:
@@ -218,7 +218,7 @@ def _drain(page: queue.Queue[str | None]) -> None:
     page.put_nowait(None)
 
 
-def _packed(value: Any) -> dict[str, str]:
+def packed(value: Any) -> dict[str, str]:
     """Return bytes encoded as base64; the `default` of `json.dumps`."""
     if isinstance(value, bytes | bytearray | memoryview):
         return {"base64": base64.b64encode(value).decode()}
@@ -310,7 +310,7 @@ class _Handler(BaseHTTPRequestHandler):
                 text = self.pages.widget.script
                 self._answer(HTTPStatus.OK, "text/javascript; charset=utf-8", text.encode())
             case "data.json":
-                data = json.dumps(self.pages.widget.state, default=_packed)
+                data = json.dumps(self.pages.widget.state, default=packed)
                 self._answer(HTTPStatus.OK, "application/json", data.encode())
             case "events":
                 self._events()

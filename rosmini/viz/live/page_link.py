@@ -6,18 +6,21 @@ server (`rosmini.viz.live.loopback`). They pass through the scheduler's inbox; a
 
 from __future__ import annotations
 
+import sys
 import time
 from abc import ABC, abstractmethod
 from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
-import anywidget
-import traitlets
-
 from rosmini.core.errors import RosminiError
 
+if sys.platform == "emscripten":
+    from .own_widget import new_widget
+else:
+    from .jupyter_widget import new_widget
+
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from rosmini.core.graph import Node
     from rosmini.core.graph.lanes import Lane
@@ -26,38 +29,16 @@ LEFT_S = 3.0
 """Timeout [s] after which a silent page counts as closed and receives no more messages."""
 
 
-class PageWidget(anywidget.AnyWidget):
-    """The page of a pad, a view or a panel, as a Jupyter widget."""
-
-    data = traitlets.Dict().tag(sync=True)
-
-    sink: Callable[[dict[str, Any], list[bytes] | None], None] | None = None
-    """Receives the messages to the page if a program serves it in place of Jupyter (`rosmini.viz.live.loopback`)."""
-
-    def send(self, content: dict[str, Any], buffers: list[bytes] | None = None) -> None:
-        """Send a message to the page."""
-        if self.sink is None:
-            super().send(content, buffers)
-        else:
-            self.sink(content, buffers)
-
-    @property
-    def script(self) -> str:
-        """JavaScript module of the page."""
-        return str(self._esm)
-
-    @property
-    def state(self) -> dict[str, Any]:
-        """Initial data of the page."""
-        return dict(self.data)
-
-    def hear(self, content: dict[str, Any]) -> None:
-        """Receive a message from the page, in any thread."""
-        self._handle_custom_msg(content, [])
-
-
 class PageLink(ABC):
-    """Receives a page's messages and passes them to the graph. `clock` returns wall-clock time [s]."""
+    """Receives a page's messages and passes them to the graph.
+
+    Args:
+        scripts: scripts of `rosmini/viz/static/`, in the order in which they run.
+        driver: the global object that they set, with the function `render`.
+        data: initial data of the page.
+        clock: returns wall-clock time [s].
+
+    """
 
     acts: ClassVar[frozenset[str]]
     """Kinds of message that a user's action causes; in a notebook they start a stopped graph."""
@@ -65,11 +46,13 @@ class PageLink(ABC):
     signs: ClassVar[frozenset[str]] = frozenset({"hello", "beat"})
     """Kinds that only report that a page exists; while the graph is stopped they are answered and dropped."""
 
-    def __init__(self, script: str, data: dict[str, Any], clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(
+        self, scripts: Sequence[str], driver: str, data: dict[str, Any], clock: Callable[[], float] = time.monotonic
+    ) -> None:
         self._clock = clock
         self._heard = clock()
         self._lane: Lane | None = None
-        self.widget = PageWidget(_esm=script, data=data)
+        self.widget = new_widget(scripts, driver, data)
         answer_in_subshells(self.widget.comm)
         self.widget.on_msg(self.receive)
 

@@ -11,7 +11,6 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import RosminiError
-from rosmini.viz.live.page import module
 from rosmini.viz.view import ViewError
 
 try:
@@ -48,7 +47,7 @@ class PanelLink(PageLink):
         """Whether the page has not yet answered what it was sent last."""
         self._last = panel.markup(live=True)
         self._cancel: Callable[[], None] | None = None
-        super().__init__(module((*SCRIPTS, *panel.scripts), "rosminiRqt"), {"html": self._last}, clock)
+        super().__init__((*SCRIPTS, *panel.scripts), "rosminiRqt", {"html": self._last}, clock)
 
     @property
     def node(self) -> Node:

@@ -203,7 +203,7 @@ def test_pages_speak_from_any_thread(page, pad):
 
 
 def test_without_anywidget_the_twin_works_and_the_page_says_what_to_install(graph, monkeypatch):
-    for name in ("page_link", "live"):
+    for name in ("jupyter_widget", "page_link", "live"):
         monkeypatch.delitem(sys.modules, f"rosmini.viz.live.{name}", raising=False)
     monkeypatch.setitem(sys.modules, "anywidget", None)
     pad = TeleopPad(graph)

@@ -15,7 +15,7 @@ class Link(PageLink):
     def __init__(self, node):
         self._node = node
         self.taken = []
-        super().__init__("", {})
+        super().__init__((), "nobody", {})
         self.sent = []
 
     @property
