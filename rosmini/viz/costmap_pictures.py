@@ -88,7 +88,7 @@ def shares(costs: NDArray[np.uint8]) -> list[str]:
         count = int(((costs >= low) & (costs <= high)).sum())
         if count:
             percent = 100 * count / costs.size
-            said.append(f"{name} {fixed(percent, 0) if percent >= 0.5 else 'under 1'} %")
+            said.append(f"{name} {fixed(percent, 0) if percent >= 0.5 else 'under 1'}%")
     return said
 
 

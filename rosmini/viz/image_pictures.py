@@ -168,7 +168,7 @@ def _deep(depths: Floats, name: str, title: str | None, width: float, far: float
     share = 100.0 * measured.mean()
     if measured.any():
         low, high = float(depths[measured].min()), float(depths[measured].max())
-        said = f"from {fixed(low, 2)} to {fixed(high, 2)} m, measured in {fixed(share, 0)} % of the pixels"
+        said = f"from {fixed(low, 2)} to {fixed(high, 2)} m, measured in {fixed(share, 0)}% of the pixels"
     else:
         low, high, said = 0.0, 1.0, "nothing within reach"
     figure = _depth_figure(depths, measured, max(far or high, 1e-3), width)

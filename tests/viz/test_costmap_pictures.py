@@ -16,7 +16,7 @@ def test_it_reports_its_size_and_its_cells():
     view = costmap_picture(grid, robot=(0.0, 2.5, 1.5708), footprint=SQUARE, title="Figure 33.1: Costs")
     assert view.text == (
         "Figure 33.1: Costs: 4 x 2 cells of 0.5 m, 2.00 x 1.00 m, origin (-1.00, 2.00)\n"
-        "free 38 %, near something 13 %, inscribed 13 %, obstacle 13 %, unknown 25 %\n"
+        "free 38%, near something 13%, inscribed 13%, obstacle 13%, unknown 25%\n"
         "robot: pose (0.00, 2.50, 90.0 deg), footprint of 4 points"
     )
     assert view.alt.startswith("A costmap from above: 4 by 2 cells of 0.5 m")

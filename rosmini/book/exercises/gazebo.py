@@ -118,7 +118,7 @@ CASES = ((0.15, 9.8), (0.4, 9.8), (0.9, 1.6))
 
 @exercise("friction", praise="It found 0.15, 0.4 and 0.9; the last one was on the Moon.")
 def friction(answer: Script) -> Any:
-    """A script that measures the coefficient of friction of an object, within 2 %."""
+    """A script that measures the coefficient of friction of an object, within 2%."""
     view = None
     for mu, gravity in CASES:
         with GazeboTrial((-0.5, 0.0, 0.0)) as trial:

@@ -167,7 +167,7 @@ def _map(path: Path) -> FileCheck:
     height, width = grid.occupancy.shape
     occupied, free = (100 * float(mask.mean()) for mask in (grid.occupied, grid.free))
     size = f"{width} x {height} cells of {grid.resolution:g} m"
-    return FileCheck(str(path), f"map: {size}, {occupied:.1f} % occupied, {free:.1f} % free")
+    return FileCheck(str(path), f"map: {size}, {occupied:.1f}% occupied, {free:.1f}% free")
 
 
 def _measures(world: World) -> str:

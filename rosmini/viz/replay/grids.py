@@ -144,7 +144,7 @@ class Grids(Frames):
         cells, resolution, _ = self.grids[-1]
         known, full = np.mean(cells != UNKNOWN), np.mean((cells >= 65) & (cells <= 100))
         size = f"{cells.shape[1]} x {cells.shape[0]} cells of {fixed(resolution, 3)} m"
-        parts = f"{fixed(100 * float(known), 0)} % known, {fixed(100 * float(full), 1)} % occupied"
+        parts = f"{fixed(100 * float(known), 0)}% known, {fixed(100 * float(full), 1)}% occupied"
         return f"{self._counted()}, the last {size}, {parts}"
 
     @property

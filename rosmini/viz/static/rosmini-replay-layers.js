@@ -127,7 +127,7 @@
         shown = -1;
         const value = values[cells[my * width + mx]];
         if (value === undefined || value < 0) return { text: "unknown" };
-        if (!isCostmap) return { text: value >= 65 ? "occupied" : value ? `${value} %` : "free", value };
+        if (!isCostmap) return { text: value >= 65 ? "occupied" : value ? `${value}%` : "free", value };
         const isFull = (i, j) => isThere(i, j) && values[cells[j * width + i]] === 100;
         const full = value ? nearest(isFull, mx, my, Math.round(REACH / resolution)) : null;
         const [i, j] = full ? [(full.mx + 0.5) * resolution, (full.my + 0.5) * resolution] : [];
