@@ -288,8 +288,8 @@ INTRODUCTION = """# Localisation and mapping in figures
 
 How well do amcl, gmapping and hector_mapping know where the robot is? A driver node that knows the true pose drives a
 Burger through the simulator's worlds at 0.2 m/s, with turns on the spot. The laser measures while the robot moves, and
-the wheels slip. A row's runs differ in their seeds. Each cell shows the median over the runs, and in brackets the
-worst run; each chart shows a small point for each run, and a large one for the median. Each run is stored in
+the wheels slip. The runs of a row differ only in their seeds. Each cell shows the median over the runs, and in brackets
+the worst run; each chart shows a small point for each run, and a large one for the median. Each run is stored in
 `assets/benchmarks/localization.json`, with the commit that produced it. Chapters that quote a number link to its row
 here. To run more drives:
 `PYTHONPATH=tests/benchmarks uv run python -m rosmini_bench.nav_located lost house --seeds 11 20`.
@@ -305,6 +305,7 @@ WORDS: MappingProxyType[str, str] = MappingProxyType(
 ```
 
 The first pose is within 0.1 m and 6 degrees of the truth, and the parameters are those of `turtlebot3_navigation`.
+*Off* is the mean error, *turning* the mean error during turns, and *95th* the 95th percentile.
 *People*: three people walk beside the robot and block about every fifth beam. *In the ellipse*: how often the true pose
 was inside the 95% ellipse of the published covariance. The map does not show crates that can be pushed; the driver
 steers around them.
@@ -316,21 +317,21 @@ steers around them.
 <a id="chart-found"></a>Figure 2: Robots that amcl found. The point is the share, the bar its 95% interval
 ```
 
-A robot counts as found if its estimated pose stays within 0.3 m of the truth for {HELD:.0f} s, starting within
-{WITHIN:.0f} s of driving. We chose these parameters using seeds other than those in the rows:
+A robot counts as found if, within {WITHIN:.0f} s of driving, its estimated pose comes within 0.3 m of the truth and
+then stays there for {HELD:.0f} s. We chose these parameters using seeds other than those in the table:
 
 {{lost}}
 
-Why these? Of 10,000 particles in a house of 125 m², about seven are within half a metre and 20 degrees of the true
-pose. With a narrow `laser_sigma_hit` these seven are no likelier than those in places where a few walls fit by chance,
-and the filter converges in such a place. With 0.8 the seven are likelier. `likelihood_field_prob` multiplies the
-probabilities of the beams instead of adding their cubes, so eight updates are enough to tell the places apart, even
-with such a wide bell curve.
-`diff-corrected` spreads the copies of a particle further than `diff`, which uses a variance as a standard deviation.
+Why these values? Of 10,000 particles in a house of 125 m², about seven are within half a metre and 20 degrees of the
+true pose. With a narrow `laser_sigma_hit` these seven are no likelier than those in places where a few walls fit by
+chance, and the filter converges in such a place. With 0.8 the seven are likelier. `likelihood_field_prob` multiplies
+the probabilities of the beams instead of adding their cubes, so eight updates are enough to distinguish the places,
+even with such a wide bell curve. `diff-corrected` spreads the copies of a particle further than `diff`, which uses a
+variance as a standard deviation.
 
 `recovery_candidates` exists only in rosmini. The original draws random particles uniformly from the free cells. Here
-the scan chooses each of them from ten random poses, by its likelihood (*sensor resetting*, Lenser and Veloso 2000).
-In rows with *uniform* they are drawn as in the original.
+each of them is chosen from ten random poses, by the likelihood of the scan at each (*sensor resetting*, Lenser and
+Veloso 2000). In rows with *uniform* they are drawn as in the original.
 
 For most robots that were not found, the estimate settled in the hall or in a corridor, turned by half a circle: both
 look the same from either end.
@@ -340,9 +341,9 @@ look the same from either end.
 
 After {CARRIED:.0f} s the robot is carried elsewhere, which its odometry does not notice. The parameters are the same
 as above. amcl adds random particles while the fast average of the likelihood is below the slow average, and resets both
-averages after a resampling that added some. With a narrow bell curve the likelihood differs by powers of ten from scan
-to scan, so random particles are added only a few times in two minutes. With a wide bell curve it differs less, and the
-few random particles near the true pose win.
+averages after a resampling step that added some. With a narrow bell curve the likelihood differs by powers of ten from
+scan to scan, so random particles are added only a few times in two minutes. With a wide bell curve it differs less, and
+the few random particles near the true pose win.
 """,
         "gmapping": """
 ## gmapping
@@ -353,11 +354,12 @@ odometry. Errors above 0.5 m are drawn at the right edge
 ```
 
 Errors are distances from the true path, with both paths aligned at the start. *Revisits* are pairs of scans more than
-60 scans apart and less than a metre from each other; *precision* and *recall* are those of occupied cells, within two
-cells. `log_house` is a drive that we also gave to the original gmapping: with its default parameters its error was
-0.105 m, and 0.036 m at revisits, with a precision of 0.80 and a recall of 0.73. *csail* is a log of a real robot, for
-which the path that the original found is taken as the truth; the error of the original is 0.046 m between neighbours
-and 0.070 m at revisits. Rows with *ours* use a scan every 0.2 m or 0.25 rad, and beams up to 3 m.
+60 scans apart and less than a metre from each other; *precision* and *recall* are those of occupied cells, with a
+tolerance of two cells. `log_house` is a recorded drive on which we also ran the original gmapping: with its default
+parameters its error was 0.105 m, and 0.036 m at revisits, with a precision of 0.80 and a recall of 0.73. *csail* is a
+log of a real robot, for which the path that the original found is taken as the truth; the error of the original is
+0.046 m between neighbours and 0.070 m at revisits. Rows with *ours* use a scan every 0.2 m or 0.25 rad, and beams up to
+3 m.
 
 In rosmini the end of a beam counts only if the cell before it is free. The original is meant to check this, but looks
 up the wrong cell, so it counts every end. With the check, the result for csail is a little worse, but maps of the house

@@ -188,7 +188,7 @@ def _failure(setup: Setup, one: Outcome) -> str:
 
 INTRODUCTION = f"""# Navigation in figures
 
-How often does this book's Navigation Stack bring a robot to its goal? These charts and tables are made from
+How often does this book's Navigation Stack bring a robot to its goal? These charts and tables summarise
 {{}} drives in the simulator's worlds. Each drive is stored in `assets/benchmarks/navigation.jsonl`, with its seed
 and the commit that produced it. Chapters that quote a number link to its row here. A later commit may round the last
 digit of a computation differently. A drive with the same seed then takes a different course after some time, so to
@@ -197,7 +197,7 @@ check a figure, repeat many drives, not one.
 ## Goals in the house, the maze and the office
 
 ```{{drawing}} navigation_goals
-<a id="chart-goals"></a>Figure 1: Goals that a Burger with the careful files reached. The point is the share,
+<a id="chart-goals"></a>Figure 1: Goals that a Burger with the careful parameter files reached. The point is the share,
 the bar its 95% interval
 ```
 
@@ -210,17 +210,18 @@ second, measures while the robot moves, and is noisy. The robot's pose comes fro
 How to read the table:
 
 - **Reached**: `move_base` reported `SUCCEEDED`, and the true pose was within the goal tolerance. With `amcl`, whose
-  estimate has an error, 0.25 m and 0.3 rad are allowed.
+  estimate has an error, the true pose may be off by 0.25 m and 0.3 rad.
 - **95% interval**: Wilson's interval for the share. If the intervals of two rows overlap, chance may explain the
   difference.
 - **Contacts**: the number of drives in which the robot hit something.
-- **Length**: the length driven, divided by that of the shortest path that keeps 0.15 m from everything on the map.
-- **Time**: the time that the drive took, divided by the time for the shortest path at full speed. For both, each cell
-  shows the median over the goals reached, and in brackets the 95th percentile.
+- **Length**: the distance driven, divided by the length of the shortest path that keeps 0.15 m from everything on the
+  map.
+- **Time**: the time that the drive took, divided by the time for the shortest path at full speed. For length and time,
+  each cell shows the median over the goals reached, and in brackets the 95th percentile.
 - **Off**: the median of the true distance from the goal at the end.
 
-We chose the parameters of `careful.yaml` by looking at the failures with seed 7. We ran seed 23 afterwards, and then
-changed nothing more. Setups with fewer than {LEAST} goals appear only in `navigation.jsonl`. To run more drives:
+We chose the parameters of `careful.yaml` by looking at the failures with seed 7. We ran seed 23 afterwards, and
+changed nothing after that. Setups with fewer than {LEAST} goals appear only in `navigation.jsonl`. To run more drives:
 `PYTHONPATH=tests/benchmarks uv run python -m rosmini_bench.nav_study FILE house=0-199`.
 """
 
@@ -236,40 +237,41 @@ CYLINDERS = """## Between cylinders that are not on the map
 <a id="chart-gaps"></a>Figure 2: Goals reached between cylinders, by the width of the gaps
 ```
 
-The unit for the gaps is the width of the Burger, 0.21 m. The planner learns of a
-cylinder only when the laser sees it. At narrow gaps the robot gives up without touching anything.
+The unit for the gaps is the width of the Burger, 0.21 m. The planner learns about a
+cylinder only when the laser sees it. In front of narrow gaps the robot gives up without touching anything.
 """
 
 EXPLORING = """## Exploring
 
 ```{{drawing}} exploring
-<a id="chart-exploring"></a>Figure 3: The share of the reachable floor that each run has seen: a small point for each
+<a id="chart-exploring"></a>Figure 3: The share of the reachable floor that each run saw: a small point for each
 run, a large one for the median
 ```
 
-Both explorers use gmapping with its default of 30 particles, and `careful:=true`. explore_lite gives up a frontier
-after 120 s without progress, because in the house a frontier may be close in a straight line but a long drive away.
-*Seen* is the share of the reachable cells that are known in the final map: the median, and in brackets the lowest.
-*Saw all* counts the runs that saw {good} or more.
+Both explorers use gmapping with its default of 30 particles, and `careful:=true`. We let explore_lite give up a
+frontier only after 120 s without progress, because in the house a frontier may be close in a straight line but a long
+drive away. *Seen* is the share of the reachable cells that are known in the final map: the median, and in brackets the
+lowest. *Saw all* counts the runs that saw {good} or more.
 
 In the house and the maze {full} runs saw {good} or more, and {ended} ended by themselves.
 
-In the office both explorers miss rooms: the best run saw {most}, a quarter saw less than {quarter}, and the worst
-{least}. Three rooms have doors that open and shut. A robot that passes a shut door maps it as a wall, and a wall is not
-a frontier. The wall often stays on the map when the door opens: gmapping ignores a beam that hits nothing, and through
-an open door many beams hit nothing, because the room is deeper than the laser's range. People walking through a doorway
-have the same effect as a shut door. Neither explorer looks at a wall a second time, and nor do the originals.
+In the office both explorers miss rooms: the best run saw {most} of the floor, a quarter of the runs saw less than
+{quarter}, and the worst saw {least}. Three rooms have doors that open and shut. A robot that passes a shut door maps it
+as a wall, and a wall is not a frontier. The wall often stays on the map when the door opens: gmapping ignores a beam
+that hits nothing, and through an open door many beams hit nothing, because the room is deeper than the laser's range.
+People walking through a doorway have the same effect as a shut door. Neither explorer looks at a wall a second time,
+and the originals do not do so either.
 """
 
 CROSSING = """## Robots that cross one another's paths
 
 Several Burgers drive in the house, each with its own `amcl`. All set off at the same moment, each for the place where
-another began. A contact is counted for each robot that was moving faster than 0.02 m/s when the contact began. Each
+another started. A contact is counted for each robot that was moving faster than 0.02 m/s when the contact began. Each
 planner treats the other robots as obstacles that stay where the last scan saw them.
 
 The robots use the careful files: `multi_turtlebot3_navigation.launch` sets `careful:=true`. We chose this setting using
 seeds 0 to 49, the 50 runs in the table. In the same runs without `careful.yaml`, 197 of 200 goals were reached, with 13
-contacts in three runs. We ran seeds 1000 to 1047 afterwards, and then changed nothing more: all 192 goals were reached
+contacts in three runs. We ran seeds 1000 to 1047 afterwards, and changed nothing after that: all 192 goals were reached
 without a contact. Without `careful.yaml`, 190 of 192 were reached, with 10 contacts in four runs.
 """
 
@@ -282,26 +284,27 @@ CAUSES = """## Where it fails, and why
 
 We looked at each failure with seed 7: the costmaps, the plan, and why the local planner rejected each velocity. The
 chapter {doc}`../../notebooks/7_navigation/95_tune_and_fix` shows how to find and fix such faults. These are the causes,
-with what `careful.yaml` changes:
+and what `careful.yaml` changes:
 
 - **Footprint.** The origin of a Burger is near its front, so the inscribed radius of its footprint is only 5 cm.
-  A global plan keeps only this distance, and leads through places too narrow for the robot, such as between the legs
-  of a chair. The local planner checks the whole footprint and refuses to drive there. `careful.yaml` treats the robot
-  as a disc.
+  A global plan keeps only this distance from obstacles, and leads through places too narrow for the robot, such as
+  the space between the legs of a chair. The local planner checks the whole footprint and refuses to drive there.
+  `careful.yaml` treats the robot as a disc.
 - **No way back.** A robot whose front is 3 cm from an obstacle can neither drive forward nor turn. `careful.yaml`
   allows -0.1 m/s, as ROBOTIS's files do.
-- **People.** They came so close that their cells in the costmap overlapped the footprint. Then they waited for
+- **People.** People came so close that their cells in the costmap overlapped the footprint. Then they waited for
   the robot, which could not leave. In the simulator they now keep 0.3 m away, and turn back after 5 s.
-- **Local costmap.** The local planner is drawn to the point where the plan leaves its costmap. In a window of 3 m that
-  point may lie behind a wall that the plan goes around, so the robot turned on the spot. `careful.yaml` uses 2 m.
+- **Local costmap.** The local planner is drawn to the point where the plan leaves the local costmap. In a window of 3 m
+  that point may lie behind a wall that the plan goes around, and then the robot turned on the spot. `careful.yaml` uses
+  2 m.
 - **Ghosts.** A beam that hits nothing clears nothing unless `inf_is_valid` is set, so people leave a trail of obstacles
   in wide rooms. `careful.yaml` sets it.
 - **Doors.** The costmap keeps the earlier positions of a door that was seen while it opened. With `careful.yaml`,
   `move_base` plans for 10 s between two recoveries, rotates only once, and clears the costmap more often.
 - **Cells.** In a costmap with cells of 5 cm, an outline may be 5 cm too wide. Noise then marks a cell under the robot,
   and every way out is rejected. `careful.yaml` uses 2.5 cm in the local costmap.
-- **First pose.** `amcl` gets the first pose to within about 0.5 m. At the entrance of the house the scan fits nearly
-  as well 0.8 m further on, and the published mean lies between the two poses.
+- **First pose.** The first pose that `amcl` is given is right to within about 0.5 m. At the entrance of the house the
+  scan fits nearly as well 0.8 m further on, and the published mean lies between the two poses.
 - **Frontiers.** explore_lite measures progress in a straight line, so it gives up a frontier while the robot is driving
   around a wall to reach it.
 - **Not explained.** In the maze, two robots are reported as oscillating although their path is clear. In the office, a
