@@ -12,6 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
+from . import wasm
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -66,6 +68,8 @@ def files() -> Iterator[tuple[str, Path]]:
         for path in sorted(folder.rglob("*")):
             if path.is_file() and path.suffix not in {".pyc", ".pyi"}:
                 yield f"{name}/{path.relative_to(folder).as_posix()}", path
+    if loops := wasm.library():
+        yield "rosmini/core/geometry/kernels.wasm", loops
     for name in PURE:
         for file in sorted(distribution(name).files or []):
             is_wanted = file.suffix in {".py", ".json"} or re.search("licen[cs]e|copying", file.name, re.IGNORECASE)

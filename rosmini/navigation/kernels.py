@@ -36,10 +36,9 @@ def kernel(loop: Kernel, *helpers: Kernel) -> Callable[[Callable[[Any], Any]], C
         @cache
         def compiled() -> Kernel:
             try:
-                import numba
+                return machine_code(loop, signature, helpers)
             except ImportError:
                 return loop
-            return machine_code(loop, signature(numba), helpers)
 
         KERNELS.append(compiled)
         return compiled

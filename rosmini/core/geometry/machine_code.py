@@ -1,4 +1,4 @@
-"""Machine code for functions in plain Python: the only use of numba, which is optional."""
+"""Machine code for functions in plain Python, by numba, which is optional; in a page of the book, by `wasm`."""
 
 from __future__ import annotations
 
@@ -45,12 +45,17 @@ class Deferral:
 
 
 def machine_code(
-    function: Callable[..., Any], signature: Any, helpers: Iterable[Callable[..., Any]] = ()
+    function: Callable[..., Any], signature: Callable[[Any], Any], helpers: Iterable[Callable[..., Any]] = ()
 ) -> Callable[..., Any]:
-    """Return `function`, which calls `helpers`, compiled for one numba signature, if possible from numba's cache.
+    """Return `function`, which calls `helpers`, compiled for one signature, if possible from numba's cache.
 
-    Raises `ImportError` without numba.
+    `signature` receives numba and returns the signature. Raises `ImportError` without numba, and in a page of the book
+    without the compiled loops.
     """
+    if sys.platform == "emscripten":
+        from .wasm import WasmLoop
+
+        return WasmLoop(function.__name__)
     with show_progress(f"compiling {function.__name__} (once on this machine) ..."):
         import numba
         from numba.extending import register_jitable
@@ -58,12 +63,22 @@ def machine_code(
         for helper in helpers:
             register_jitable(helper)
         try:
-            return numba.njit([signature], cache=True)(function)
+            return numba.njit([signature(numba)], cache=True)(function)
         except Exception as error:
             # Without a usable cache (read-only installation, full disk, broken file) each start takes a
             # few seconds longer. An error in the function itself is raised again below.
             logging.getLogger(__name__).info("numba cannot cache %s: %s", function.__name__, error)
-        return numba.njit([signature])(function)
+        return numba.njit([signature(numba)])(function)
+
+
+def require() -> None:
+    """Raise `ImportError` if there is no machine code here."""
+    if sys.platform == "emscripten":
+        from .wasm import library
+
+        library()
+    else:
+        import numba  # noqa: F401
 
 
 @contextmanager

@@ -185,10 +185,11 @@ def walk(
 @cache
 def compiled_walk() -> Callable[..., tuple[int, int, Rigid]]:
     """Return `walk` compiled by numba, for arrays. Raises `ImportError` without numba."""
-    import numba
 
-    types: Any = numba.types
-    number, ints, floats = types.int64, types.int64[::1], types.float64[::1]
-    result = types.Tuple((number, number, types.UniTuple(types.float64, 7)))
-    signature = result(ints, ints, floats, ints, ints, number, number)
+    def signature(numba: Any) -> Any:
+        types = numba.types
+        number, ints, floats = types.int64, types.int64[::1], types.float64[::1]
+        result = types.Tuple((number, number, types.UniTuple(types.float64, 7)))
+        return result(ints, ints, floats, ints, ints, number, number)
+
     return machine_code(walk, signature, (compose, inverse, interpolate, find, sample))

@@ -482,8 +482,6 @@ PLAIN: dict[str, Callable[..., Any]] = {each.__name__: each for each in (resolve
 
 def compiled(name: str) -> Callable[..., Any]:
     """Compile one of `PLAIN` to machine code. Raises `ImportError` without numba."""
-    import numba
-
     pairs = (parting, facing, height, nearest_side, contact_disc, contact, gap)
     pushes = (point_correction, update_corners, may_touch_fixed, may_touch, push_along, push_out)
     blows = (
@@ -500,12 +498,15 @@ def compiled(name: str) -> Callable[..., Any]:
         separate,
         integrate,
     )
-    number, table, ways, vector = numba.float64, numba.float64[:, ::1], numba.int64[::1], numba.float64[::1]
-    types: Any = numba.types
-    scene = types.Tuple((table, table, table, table, ways, ways, vector, ways, ways, table, ways, table, ways, ways))
-    signatures = {
-        "resolve_overlaps": numba.void(ways, scene, ways),
-        "slide": numba.int64(number, number, scene, table, table),
-        "clearances": numba.void(ways, number, scene, vector),
-    }
-    return machine_code(PLAIN[name], signatures[name], (*pairs, *pushes, *blows))
+
+    def signature(numba: Any) -> Any:
+        number, table, ways, vector = numba.float64, numba.float64[:, ::1], numba.int64[::1], numba.float64[::1]
+        arrays = (table, table, table, table, ways, ways, vector, ways, ways, table, ways, table, ways, ways)
+        scene = numba.types.Tuple(arrays)
+        return {
+            "resolve_overlaps": numba.void(ways, scene, ways),
+            "slide": numba.int64(number, number, scene, table, table),
+            "clearances": numba.void(ways, number, scene, vector),
+        }[name]
+
+    return machine_code(PLAIN[name], signature, (*pairs, *pushes, *blows))

@@ -145,15 +145,16 @@ def pose_at(low: int, high: int, times: Floats, poses: Floats, when: float) -> t
 @cache
 def compiled() -> Callable[..., None]:
     """Return `sweep` as machine code. Raises `ImportError` without numba."""
-    import numba
 
-    f, i = numba.float64, numba.int64
+    def signature(numba: Any) -> Any:
+        f, i = numba.float64, numba.int64
 
-    def read(kind: Any, dimensions: int) -> Any:
-        return numba.types.Array(kind, dimensions, "C", readonly=True)
+        def read(kind: Any, dimensions: int) -> Any:
+            return numba.types.Array(kind, dimensions, "C", readonly=True)
 
-    line, table, numbers = read(f, 1), read(f, 2), read(i, 2)
-    signature = numba.void(
-        i, f, f, line, read(i, 1), line, table, numbers, table, table, table, table, table, line, f[:, ::1], f[::1]
-    )
+        line, table, numbers = read(f, 1), read(f, 2), read(i, 2)
+        return numba.void(
+            i, f, f, line, read(i, 1), line, table, numbers, table, table, table, table, table, line, f[:, ::1], f[::1]
+        )
+
     return machine_code(sweep, signature, (*HELPERS, arc, pose_at, turned, overlap))

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from rosmini.core.errors import RosminiError, nearest
 from rosmini.core.geometry.angles import cos_sin, normalize_angle
 from rosmini.core.geometry.errors import GeometryError
-from rosmini.core.geometry.machine_code import Deferral
+from rosmini.core.geometry.machine_code import Deferral, require
 
 from . import raycast_numpy
 
@@ -242,7 +242,7 @@ def _chosen(name: str | None, rays: int) -> str:
 def _numba() -> Any:
     """Return the module with the compiled kernel, or None without numba."""
     try:
-        import numba  # noqa: F401
+        require()
     except ModuleNotFoundError:
         return None
     except ImportError as error:  # numba refuses a numpy version newer than it supports

@@ -198,12 +198,13 @@ HELPERS = (cast_segment, cast_disc, before, segment_distance, meet_segment, meet
 @cache
 def compiled() -> Callable[..., None]:
     """Return `cast` compiled by numba. Raises `ImportError` without numba."""
-    import numba
 
-    number = numba.float64
-    table: Any = numba.types.Array(number, 2, "C", readonly=True)
-    read: Any = numba.types.Array(number, 1, "C", readonly=True)
-    rays: Any = numba.types.Array(numba.int64, 2, "C", readonly=True)
-    plain = (table, table, number, number, read, read, number, number, number, number[::1])
-    signature = numba.void(*plain, read, read, number, number, rays, rays)
+    def signature(numba: Any) -> Any:
+        number = numba.float64
+        table = numba.types.Array(number, 2, "C", readonly=True)
+        read = numba.types.Array(number, 1, "C", readonly=True)
+        rays = numba.types.Array(numba.int64, 2, "C", readonly=True)
+        plain = (table, table, number, number, read, read, number, number, number, number[::1])
+        return numba.void(*plain, read, read, number, number, rays, rays)
+
     return machine_code(cast, signature, HELPERS)
