@@ -142,7 +142,7 @@ class SharedMaps:
         scan = Scan(ranges, bearings, usable, np.zeros(self.tables.shape[1:], dtype=np.uint8))
         done = 0
         while done < len(laser_poses):
-            free = np.flatnonzero(self.owners[1:] == 0) + 1
+            free = np.flatnonzero(self.owners[1:] == 0).astype(np.int64) + 1
             done = compiled_register()(self.pool, scan, laser_poses, free, done)
             if done < len(laser_poses):
                 self._add_patches(int(scan.touched.sum()))

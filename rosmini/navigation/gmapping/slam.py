@@ -207,7 +207,7 @@ class GridSlam:
             return effective, False
         ends = np.cumsum(np.rint(weights * WEIGHT_UNITS).astype(np.int64))
         step = int(ends[-1]) // count
-        marks = int(self.random.integers(step)) + step * np.arange(count)
+        marks = int(self.random.integers(step)) + step * np.arange(count, dtype=np.int64)
         chosen = np.searchsorted(ends, marks, side="right")
         self.poses, self.sums = self.poses[chosen], self.sums[chosen]
         self.paths = [self.paths[int(one)] for one in chosen]

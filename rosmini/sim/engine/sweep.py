@@ -162,7 +162,7 @@ class Sweeps:
                 poses += track[1]
                 starts.append(len(times))
                 around.append(_around(track[1], reach))
-        self._starts, self._times = np.array(starts), np.array(times)
+        self._starts, self._times = np.array(starts, dtype=np.int64), np.array(times)
         self._poses, self._around = np.array(poses).reshape(-1, 3), np.array(around).reshape(-1, 3)
         moving = self._numbers
         self._stationary_robots = [each for each in population.robots.values() if each.name not in moving]
