@@ -25,7 +25,7 @@
   status.setAttribute("role", "status");
   status.textContent =
     `Runs the cells in your browser. Loads ${dataset.megabytes} MB: ` +
-    "Python and its packages from cdn.jsdelivr.net, and the library from this site.";
+    "Python and its packages from cdn.jsdelivr.net, and the library from this site. A plot loads 10 MB more.";
   panel.append(button, status);
   document.querySelector(".bd-article h1").after(panel);
 
@@ -36,7 +36,7 @@
     return made;
   }
 
-  /* The text of a cell's outputs, by kind. Pictures are not compared. */
+  /* The text of a cell's outputs, by kind, without blank lines at its ends: HTML drops the first. Pictures are not compared. */
   function textsOf(outputs) {
     const texts = {};
     for (const text of outputs.querySelectorAll(".output > .highlight > pre")) {
@@ -44,7 +44,7 @@
       const kind = names.find((name) => ["stream", "stderr", "traceback"].includes(name)) ?? "value";
       texts[kind] = (texts[kind] ?? "") + text.textContent;
     }
-    return Object.entries(texts).map(([kind, text]) => kind + text.trimEnd()).sort().join("\n");
+    return Object.entries(texts).map(([kind, text]) => kind + text.trim()).sort().join("\n");
   }
 
   /* Make a cell of the page editable and give it a button. */

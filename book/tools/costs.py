@@ -16,6 +16,8 @@ from typing import Any
 
 CHECKOUT = Path(__file__).resolve().parents[2]
 FILE = CHECKOUT / "assets" / "benchmarks" / "chapters.json"
+IN_BROWSER = FILE.with_name("in_browser.json")
+"""The manual run of chapters in a browser."""
 PROC = Path("/proc")
 
 

@@ -163,6 +163,38 @@ class CostTable(Generated):
         return super().run()
 
 
+RUN_COLUMNS = {
+    "equal": "equal",
+    "of": "of cells",
+    "first": "first cell [s]",
+    "all": "all cells [s]",
+    "megabytes": "download [MB]",
+    "memory": "memory [MB]",
+}
+
+
+class BrowserRuns(Generated):
+    """The manual run of chapters in a browser, in the order of the book."""
+
+    def lines(self) -> Iterator[str]:
+        """Return what was measured, and the table."""
+        run, chapters = costs.read(costs.IN_BROWSER)
+        toc = (costs.CHECKOUT / "book" / "_toc.yml").read_text(encoding="utf-8")
+        yield from (f"Run on {run['date']} at commit `{run['commit']}`: {run['machine']}.", "")
+        yield f"| chapter | {' | '.join(RUN_COLUMNS.values())} | not equal |"
+        yield f"|---|{'---:|' * len(RUN_COLUMNS)}---|"
+        for name in re.findall(r"file: (notebooks/\S+)", toc):
+            if found := chapters.get(name):
+                numbers = " | ".join(str(found[key]) for key in RUN_COLUMNS)
+                yield f"| {{doc}}`/{name}` | {numbers} | {found.get('why', '')} |"
+        yield ""
+
+    def run(self) -> list[nodes.Node]:
+        """Return the content; the page is built again after a run."""
+        self.env.note_dependency(str(costs.IN_BROWSER))
+        return super().run()
+
+
 class Interface(Generated):
     """The public names of a module, and the methods of its classes, with the first sentence of each docstring."""
 

@@ -23,6 +23,15 @@ PAGES = {
     "notebooks/4_files/50_catkin": (),
     "notebooks/4_files/40_from_scratch": (),
     "notebooks/1_start/10_first_steps": ("numpy", "pillow"),
+    "notebooks/2_graph/10_nodes_and_master": ("numpy",),
+    "notebooks/2_graph/30_services": ("numpy",),
+    "notebooks/2_graph/40_actionlib": ("numpy",),
+    "notebooks/2_graph/50_parameter_server": ("numpy",),
+    "notebooks/2_graph/60_names": ("numpy",),
+    "notebooks/5_turtlesim/10_turtlesim_nodes": ("numpy",),
+    "notebooks/5_turtlesim/20_turtlesim_topics": ("numpy",),
+    "notebooks/5_turtlesim/30_motion_node": ("numpy",),
+    "notebooks/5_turtlesim/50_logo": ("numpy",),
 }
 """The pages whose cells run in the browser, and the packages of Pyodide that they import."""
 

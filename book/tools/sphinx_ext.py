@@ -447,6 +447,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("interface", reference.Interface)
     app.add_directive("fidelity", reference.FidelityTables)
     app.add_directive("costs", reference.CostTable)
+    app.add_directive("browser-runs", reference.BrowserRuns)
     for language in ("python", "ipython3"):  # of fences, and of cells
         app.add_lexer(language, CellLexer)
     app.connect("config-inited", substitute)

@@ -1,6 +1,7 @@
 """The button *Run in this page*: the cells of a page run in the browser, and print what the book shows.
 
 ROSMINI_PYODIDE names the folder of npm's package `pyodide`: its files are sent in place of the same ones on jsDelivr.
+In the folder of Pyodide's full distribution, which has the packages, pages with numpy are run as well.
 """
 
 import json
@@ -22,10 +23,13 @@ CDN, PACKAGES = ASKS["run-worker.js"]
 WITHOUT_NUMPY = [name for name, packages in PAGES.items() if not packages]
 FIRST = WITHOUT_NUMPY[0]
 
+MARKED_TRACEBACKS = {"notebooks/2_graph/50_parameter_server": {6}, "notebooks/5_turtlesim/30_motion_node": {4}}
+"""Cells with a traceback, in which Python 3.13 marks other parts of a line than Python 3.11 does in the book."""
+
 FROM_CDN = {"Access-Control-Allow-Origin": "*"}
 
 TEXTS = """Array.from(document.querySelectorAll(".bd-article .cell"), (cell) =>
-    Array.from(cell.querySelectorAll(".output > .highlight > pre"), (text) => text.textContent.trimEnd()))"""
+    Array.from(cell.querySelectorAll(".output > .highlight > pre"), (text) => text.textContent.trim()))"""
 
 PANEL = """
 %load_ext rosmini
@@ -64,6 +68,11 @@ def served(chromium, book_html):
             body = change(file.name, file.read_bytes())
             route.fulfill(body=body, headers=FROM_CDN | {"Content-Type": kind})
 
+        def send_package(route):
+            file = pyodide / route.request.url.removeprefix(PACKAGES)
+            body = file.read_bytes() if file.is_file() else b"not the package"
+            route.fulfill(body=change(file.name, body), headers=FROM_CDN)
+
         def send_page(route):
             route.fulfill(path=book_html / route.request.url.removeprefix(SITE).partition("?")[0])
 
@@ -75,7 +84,7 @@ def served(chromium, book_html):
         context.route(f"{SITE}**", send_page)
         if pyodide:
             context.route(f"{CDN}**", send)
-            context.route(f"{PACKAGES}**", lambda route: route.fulfill(body=b"not the package", headers=FROM_CDN))
+            context.route(f"{PACKAGES}**", send_package)
         page = context.new_page()
         page.goto(f"{SITE}{name}.html")
         return page, asked
@@ -111,8 +120,10 @@ def running(served, pyodide):
 
 
 @pytest.mark.nightly
-@pytest.mark.parametrize("name", WITHOUT_NUMPY)
+@pytest.mark.parametrize("name", PAGES)
 def test_all_cells_of_a_page_print_what_the_book_shows(served, pyodide, name):
+    if PAGES[name] and not any(pyodide.glob("numpy-*.whl")):
+        pytest.skip("npm's package pyodide has no numpy")
     page, asked = served(name, pyodide)
     stored = page.evaluate(TEXTS)
     assert not [url for url in asked if "worker" in url or "packages" in url or not url.startswith(SITE)]
@@ -120,8 +131,10 @@ def test_all_cells_of_a_page_print_what_the_book_shows(served, pyodide, name):
     wait_for(page, "Ready.")
     press(page, "Run all")
     wait_for(page, "Done.")
-    assert page.evaluate(TEXTS) == stored
-    assert page.locator(".run-differs").count() == 0
+    numbers = range(1, len(stored) + 1)
+    shown = zip(numbers, stored, page.evaluate(TEXTS), strict=True)
+    marked = {number for number in numbers if page.locator(f".cell >> nth={number - 1} >> .run-differs").count()}
+    assert {number for number, old, new in shown if old != new} == MARKED_TRACEBACKS.get(name, set()) == marked
     assert {url for url in asked if not url.startswith((SITE, CDN))} == {
         url for url in asked if url.startswith("blob:" + SITE)
     }
@@ -209,7 +222,7 @@ def test_a_file_of_pyodide_that_was_changed_is_refused(served, pyodide):
 
 
 def test_a_package_is_asked_for_when_it_is_imported_and_refused_if_it_was_changed(served, pyodide):
-    page, asked = served(FIRST, pyodide)
+    page, asked = served(FIRST, pyodide, change=lambda name, body: body + b" " * name.endswith(".whl"))
     press(page)
     wait_for(page, "Ready.")
     assert not [url for url in asked if url.startswith(PACKAGES)]
