@@ -12,10 +12,10 @@ from rosmini.msgs.std_msgs.msg import Empty, Float32
 
 COMMANDS = {
     "Does /simulator answer?": {"rosnode ping"},
-    "How many messages a second come on /imu?": {"rostopic hz"},
+    "How many messages per second arrive on /imu?": {"rostopic hz"},
     "Which topics carry nav_msgs/Odometry?": {"rostopic find"},
-    "Which fields has sensor_msgs/Imu?": {"rosmsg show", "rosmsg info"},
-    "What has to be given to /driver/set_logger_level?": {"rosservice args", "rosservice info"},
+    "Which fields does sensor_msgs/Imu have?": {"rosmsg show", "rosmsg info"},
+    "Which arguments does /driver/set_logger_level take?": {"rosservice args", "rosservice info"},
     "How do I save all parameters in a file?": {"rosparam dump"},
     "How long is drive.bag?": {"rosbag info"},
 }

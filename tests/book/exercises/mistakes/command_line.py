@@ -11,10 +11,10 @@ if TYPE_CHECKING:
 
 COMMANDS = {
     "Does /simulator answer?": "rosnode ping",
-    "How many messages a second come on /imu?": "rostopic hz",
+    "How many messages per second arrive on /imu?": "rostopic hz",
     "Which topics carry nav_msgs/Odometry?": "rostopic find",
-    "Which fields has sensor_msgs/Imu?": "rosmsg show",
-    "What has to be given to /driver/set_logger_level?": "rosservice args",
+    "Which fields does sensor_msgs/Imu have?": "rosmsg show",
+    "Which arguments does /driver/set_logger_level take?": "rosservice args",
     "How do I save all parameters in a file?": "rosparam dump",
     "How long is drive.bag?": "rosbag info",
 }
@@ -47,7 +47,7 @@ MISTAKES: dict[str, list[Callable[[], Any]]] = {
     "commands": [
         dict,
         lambda: {**COMMANDS, "Does /simulator answer?": "rosnode list"},
-        lambda: {**COMMANDS, "Which fields has sensor_msgs/Imu?": "rosmmsg show"},
+        lambda: {**COMMANDS, "Which fields does sensor_msgs/Imu have?": "rosmmsg show"},
         lambda: {**COMMANDS, "How long is drive.bag?": "rosbag"},
         lambda: list(COMMANDS.values()),
     ],
