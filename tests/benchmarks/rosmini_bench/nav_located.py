@@ -376,8 +376,8 @@ the laser sweeps, that is, measures its beams one after another. In `log_house` 
 odometry hector_mapping loses it, and so does the original, because its matcher cannot correct a scan that is turned by
 14 degrees. With odometry as the initial estimate, the original is off by 0.021 m.
 
-The robot waits for a second before it drives off, except in rows with *off at once*. In those, the first scan may be
-taken during a turn, and the sweep distorts it; this rotates the whole map, and the path with it.
+The robot waits for a second before it drives off, except in rows with *off at once*. In those rows, the first scan may
+be taken during a turn, and the sweep distorts it; this rotates the whole map, and the path with it.
 """,
     }
 )

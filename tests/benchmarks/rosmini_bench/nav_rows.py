@@ -211,7 +211,7 @@ How to read the table:
 
 - **Reached**: `move_base` reported `SUCCEEDED`, and the true pose was within the goal tolerance. With `amcl`, whose
   estimate has an error, the true pose may be off by 0.25 m and 0.3 rad.
-- **95% interval**: Wilson's interval for the share. If the intervals of two rows overlap, chance may explain the
+- **95% interval**: the Wilson interval for the share. If the intervals of two rows overlap, chance may explain the
   difference.
 - **Contacts**: the number of drives in which the robot hit something.
 - **Length**: the distance driven, divided by the length of the shortest path that keeps 0.15 m from everything on the
@@ -295,8 +295,8 @@ and what `careful.yaml` changes:
 - **People.** People came so close that their cells in the costmap overlapped the footprint. Then they waited for
   the robot, which could not leave. In the simulator they now keep 0.3 m away, and turn back after 5 s.
 - **Local costmap.** The local planner is drawn to the point where the plan leaves the local costmap. In a window of 3 m
-  that point may lie behind a wall that the plan goes around, and then the robot turned on the spot. `careful.yaml` uses
-  2 m.
+  that point could lie behind a wall that the plan goes around, and then the robot turned on the spot. `careful.yaml`
+  uses 2 m.
 - **Ghosts.** A beam that hits nothing clears nothing unless `inf_is_valid` is set, so people leave a trail of obstacles
   in wide rooms. `careful.yaml` sets it.
 - **Doors.** The costmap keeps the earlier positions of a door that was seen while it opened. With `careful.yaml`,
