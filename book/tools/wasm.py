@@ -68,6 +68,8 @@ def library() -> Path | None:
         compiled.parent.mkdir(exist_ok=True)
         partial = compiled.with_suffix(f".{os.getpid()}")
         subprocess.run([sys.executable, "-m", __name__, str(partial)], cwd=CHECKOUT, check=True)
+        for stale in compiled.parent.glob("kernels-*.wasm"):
+            stale.unlink()
         partial.replace(compiled)
     return compiled
 
