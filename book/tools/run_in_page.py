@@ -32,9 +32,11 @@ PAGES = {
     "notebooks/5_turtlesim/20_turtlesim_topics": ("numpy",),
     "notebooks/5_turtlesim/30_motion_node": ("numpy",),
     "notebooks/5_turtlesim/50_logo": ("numpy",),
+    "notebooks/4_files/30_file_system": ("numpy",),
     "notebooks/4_files/60_logging": ("numpy",),
     "notebooks/4_files/80_launch_files": ("numpy",),
     "notebooks/9_deeper/20_publish_subscribe": ("numpy",),
+    "notebooks/9_deeper/30_when_things_go_wrong": ("numpy", "pillow"),
 }
 """The pages whose cells run in the browser, and the packages of Pyodide that they import."""
 
