@@ -239,7 +239,8 @@ def test_the_button_says_how_much_is_loaded_before_anything_is(served):
         text = page.locator(".run-panel").get_by_role("status").inner_text()
         sizes[name] = int(text.partition("Loads ")[2].partition(" MB")[0])
         assert not [url for url in asked if "worker" in url or "packages" in url or not url.startswith(SITE)]
-    assert sizes["notebooks/1_start/10_first_steps"] - sizes[FIRST] == round(PACKAGE_MB["numpy"] + PACKAGE_MB["pillow"])
+    more = PACKAGE_MB["numpy"] + PACKAGE_MB["pillow"]
+    assert sizes["notebooks/1_start/10_first_steps"] - sizes[FIRST] == pytest.approx(more, abs=1)  # both are rounded
 
 
 def test_a_page_from_a_file_names_the_command_that_serves_the_book(book_html, tabs):
