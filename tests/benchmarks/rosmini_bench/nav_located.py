@@ -314,7 +314,7 @@ steers around them.
 ## amcl: a robot that may be anywhere
 
 ```{{drawing}} amcl_found
-<a id="chart-found"></a>Figure 2: Robots that amcl found. The point is the share, the bar its 95% interval
+<a id="chart-found"></a>Figure 2: Robots that amcl found. The point is the proportion, the bar its 95% interval
 ```
 
 A robot counts as found if, within {WITHIN:.0f} s of driving, its estimated pose comes within 0.3 m of the truth and

@@ -197,8 +197,8 @@ check a figure, repeat many drives, not one.
 ## Goals in the house, the maze and the office
 
 ```{{drawing}} navigation_goals
-<a id="chart-goals"></a>Figure 1: Goals that a Burger with the careful parameter files reached. The point is the share,
-the bar its 95% interval
+<a id="chart-goals"></a>Figure 1: Goals that a Burger with the careful parameter files reached. The point is the
+proportion, the bar its 95% interval
 ```
 
 A Burger was sent to goals drawn at random, at least 3 m away, with any heading. Around each start and
@@ -211,7 +211,7 @@ How to read the table:
 
 - **Reached**: `move_base` reported `SUCCEEDED`, and the true pose was within the goal tolerance. With `amcl`, whose
   estimate has an error, the true pose may be off by 0.25 m and 0.3 rad.
-- **95% interval**: the Wilson interval for the share. If the intervals of two rows overlap, chance may explain the
+- **95% interval**: the Wilson interval for the proportion. If the intervals of two rows overlap, chance may explain the
   difference.
 - **Contacts**: the number of drives in which the robot hit something.
 - **Length**: the distance driven, divided by the length of the shortest path that keeps 0.15 m from everything on the
@@ -244,14 +244,14 @@ cylinder only when the laser sees it. In front of narrow gaps the robot gives up
 EXPLORING = """## Exploring
 
 ```{{drawing}} exploring
-<a id="chart-exploring"></a>Figure 3: The share of the reachable floor that each run saw: a small point for each
+<a id="chart-exploring"></a>Figure 3: The proportion of the reachable floor that each run saw: a small point for each
 run, a large one for the median
 ```
 
 Both explorers use gmapping with its default of 30 particles, and `careful:=true`. We let explore_lite give up a
 frontier only after 120 s without progress, because in the house a frontier may be close in a straight line but a long
-drive away. *Seen* is the share of the reachable cells that are known in the final map: the median, and in brackets the
-lowest. *Saw all* counts the runs that saw {good} or more.
+drive away. *Seen* is the proportion of the reachable cells that are known in the final map: the median, and in brackets
+the lowest. *Saw all* counts the runs that saw {good} or more.
 
 In the house and the maze {full} runs saw {good} or more, and {ended} ended by themselves.
 
