@@ -103,12 +103,16 @@ class Trial:
             raise Wrong(f"Your script logged an error: {said}", "fix this error")
 
     def view(self) -> Any:
-        """Return the picture of the drive so far; None if nothing was recorded yet."""
+        """Return the picture of the drive so far; None if nothing was recorded yet, or if it cannot be drawn.
+
+        An answer is right or wrong without its picture, for which a page of the book has to load matplotlib.
+        """
         from rosmini.sim.recording import RecordingError
+        from rosmini.viz.view import ViewError
 
         try:
             return self._recorder.recording().show(title="What the robot did")
-        except RecordingError:
+        except (RecordingError, ViewError):
             return None
 
     def _first_error(self) -> str:

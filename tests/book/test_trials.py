@@ -7,6 +7,8 @@ import pytest
 from rosmini import Graph, default_graph, set_default_graph
 from rosmini.book.checks import Script, Status, Wrong, exercise, is_stub
 from rosmini.book.trials import StageTrial, Trial
+from rosmini.sim.recording import Recording
+from rosmini.viz.view import ViewError
 
 DRIVE = """
 import rospy
@@ -134,6 +136,21 @@ def test_a_verdict_shows_what_the_robot_did():
     assert wrong.view is not None
     assert drives.grade(Script("drive.py", "...")).status is Status.NOT_ATTEMPTED
     assert drives.grade(Script("drive.py", "def broken(:")).status is Status.WRONG
+
+
+def test_a_picture_that_cannot_be_drawn_changes_no_verdict(monkeypatch):
+    def fail(*_, **__):
+        raise ViewError("matplotlib is missing")
+
+    monkeypatch.setattr(Recording, "show", fail)
+    with Trial("room") as trial:
+        trial.start(Script("drive.py", DRIVE))
+        trial.run(1.0)
+        assert trial.view() is None
+    with pytest.raises(Wrong, match="too short") as caught, Trial("room") as trial:
+        trial.run(1.0)
+        raise Wrong("too short")
+    assert caught.value.view is None
 
 
 def test_a_script_drives_in_a_stage_world():
