@@ -30,7 +30,11 @@ FIND = "import sys; from importlib.util import find_spec; sys.exit(not all(map(f
 
 
 def need_ros(*programs: str, modules: str = "") -> None:
-    """Skip where a program or a module of real ROS is missing; fail instead if ROSMINI_REQUIRE_ROS=1."""
+    """Skip where a program or a module of real ROS is missing; fail instead if ROSMINI_REQUIRE_ROS=1.
+
+    Debian has a Python without ROS: a test that runs it names what it imports.
+    """
+    assert programs or modules
     missing = [program for program in (*programs, SYSTEM_PYTHON) if shutil.which(program) is None]
     if not missing and modules and run([SYSTEM_PYTHON, "-c", FIND, *modules.split(", ")]).returncode:
         missing = [modules]

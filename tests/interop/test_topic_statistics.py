@@ -25,7 +25,7 @@ PEER = Path(__file__).with_name("statistics_peer.py")
 @pytest.mark.ros
 @pytest.mark.parametrize("busy", [0.0, 0.12, 0.004])
 def test_statistics_are_those_of_rospy(busy: float) -> None:
-    need_ros()
+    need_ros(modules="rospy")
     arrivals: list[tuple[int, int, int]] = []
     ours: list[Any] = []
     random = Random(1)
