@@ -10,7 +10,7 @@ import tomllib
 from collections import defaultdict
 from dataclasses import fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from docutils import nodes
 from docutils.statemachine import StringList
@@ -133,66 +133,57 @@ class FidelityTables(Generated):
         return super().run()
 
 
-COLUMNS = {
-    "cells": "code cells",
-    "cpu": "processor [s]",
-    "memory": "memory [MB]",
-    "notebook": "notebook [kB]",
-    "page": "page [kB]",
-}
+class ChapterTable(Generated):
+    """What a run measured of each chapter, in the order of the book."""
 
-
-class CostTable(Generated):
-    """Time, memory and size of each chapter, in the order of the book."""
+    file: ClassVar[Path]
+    columns: ClassVar[dict[str, str]]
+    """Titles of the columns by the names of their values; values are numbers, apart from `why`."""
 
     def lines(self) -> Iterator[str]:
-        """Return what was measured, and the table."""
-        run, chapters = costs.read()
+        """Return when and where it was measured, and the table."""
+        run, chapters = costs.read(self.file)
         toc = (costs.CHECKOUT / "book" / "_toc.yml").read_text(encoding="utf-8")
         yield from (f"Measured on {run['date']} at commit `{run['commit']}`: {run['machine']}.", "")
-        yield f"| chapter | {' | '.join(COLUMNS.values())} |"
-        yield f"|---|{'---:|' * len(COLUMNS)}"
-        for name in re.findall(r"file: (notebooks/\S+)", toc):
-            if cost := chapters.get(name):
-                yield f"| {{doc}}`/{name}` | {' | '.join(str(cost.get(key, '')) for key in COLUMNS)} |"
-        yield ""
-
-    def run(self) -> list[nodes.Node]:
-        """Return the content; the page is built again after a measurement."""
-        self.env.note_dependency(str(costs.FILE))
-        return super().run()
-
-
-RUN_COLUMNS = {
-    "equal": "equal",
-    "of": "of cells",
-    "first": "first cell [s]",
-    "all": "all cells [s]",
-    "megabytes": "download [MB]",
-    "memory": "memory [MB]",
-}
-
-
-class BrowserRuns(Generated):
-    """The manual run of chapters in a browser, in the order of the book."""
-
-    def lines(self) -> Iterator[str]:
-        """Return what was measured, and the table."""
-        run, chapters = costs.read(costs.IN_BROWSER)
-        toc = (costs.CHECKOUT / "book" / "_toc.yml").read_text(encoding="utf-8")
-        yield from (f"Run on {run['date']} at commit `{run['commit']}`: {run['machine']}.", "")
-        yield f"| chapter | {' | '.join(RUN_COLUMNS.values())} | not equal |"
-        yield f"|---|{'---:|' * len(RUN_COLUMNS)}---|"
+        yield f"| chapter | {' | '.join(self.columns.values())} |"
+        yield f"|---|{''.join('---|' if key == 'why' else '---:|' for key in self.columns)}"
         for name in re.findall(r"file: (notebooks/\S+)", toc):
             if found := chapters.get(name):
-                numbers = " | ".join(str(found[key]) for key in RUN_COLUMNS)
-                yield f"| {{doc}}`/{name}` | {numbers} | {found.get('why', '')} |"
+                yield f"| {{doc}}`/{name}` | {' | '.join(str(found.get(key, '')) for key in self.columns)} |"
         yield ""
 
     def run(self) -> list[nodes.Node]:
         """Return the content; the page is built again after a run."""
-        self.env.note_dependency(str(costs.IN_BROWSER))
+        self.env.note_dependency(str(self.file))
         return super().run()
+
+
+class CostTable(ChapterTable):
+    """Time, memory and size of each chapter."""
+
+    file = costs.FILE
+    columns: ClassVar[dict[str, str]] = {
+        "cells": "code cells",
+        "cpu": "processor [s]",
+        "memory": "memory [MB]",
+        "notebook": "notebook [kB]",
+        "page": "page [kB]",
+    }
+
+
+class BrowserRuns(ChapterTable):
+    """The manual run of chapters in a browser."""
+
+    file = costs.IN_BROWSER
+    columns: ClassVar[dict[str, str]] = {
+        "equal": "equal",
+        "of": "of cells",
+        "first": "first cell [s]",
+        "all": "all cells [s]",
+        "megabytes": "download [MB]",
+        "memory": "memory [MB]",
+        "why": "not equal",
+    }
 
 
 class Interface(Generated):
