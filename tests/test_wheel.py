@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+from .conftest import tool
 from .processes import run as run_process
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -20,7 +21,7 @@ CHAPTER = ROOT / "notebooks" / "4_files/50_catkin.ipynb"
 
 def uv(*arguments: str | Path, cwd: Path = ROOT) -> None:
     """Run uv: from its cache if that has everything, else from the network."""
-    from uv import find_uv_bin
+    find_uv_bin = tool("uv").find_uv_bin
 
     # The settings of the machine's own environment are not to be seen.
     environment = {name: value for name, value in os.environ.items() if name != "VIRTUAL_ENV"}
