@@ -324,14 +324,14 @@ then stays there for {HELD:.0f} s. We chose these parameters using seeds other t
 
 Why these values? Of 10,000 particles in a house of 125 m², about seven are within half a metre and 20 degrees of the
 true pose. With a narrow `laser_sigma_hit` these seven are no likelier than those in places where a few walls fit by
-chance, and the filter converges in such a place. With 0.8 the seven are likelier. `likelihood_field_prob` multiplies
+chance, and the filter converges on such a place. With 0.8 the seven are likelier. `likelihood_field_prob` multiplies
 the probabilities of the beams instead of adding their cubes, so eight updates are enough to distinguish the places,
 even with such a wide bell curve. `diff-corrected` spreads the copies of a particle further than `diff`, which uses a
 variance as a standard deviation.
 
 `recovery_candidates` exists only in rosmini. The original draws random particles uniformly from the free cells. Here
 each of them is chosen from ten random poses, by the likelihood of the scan at each (*sensor resetting*, Lenser and
-Veloso 2000). In rows with *uniform* they are drawn as in the original.
+Veloso 2000). In rows marked *uniform* they are drawn as in the original.
 
 For most robots that were not found, the estimate settled in the hall or in a corridor, turned by half a circle: both
 look the same from either end.
@@ -358,7 +358,7 @@ Errors are distances from the true path, with both paths aligned at the start. *
 tolerance of two cells. `log_house` is a recorded drive on which we also ran the original gmapping: with its default
 parameters its error was 0.105 m, and 0.036 m at revisits, with a precision of 0.80 and a recall of 0.73. *csail* is a
 log of a real robot, for which the path that the original found is taken as the truth; the error of the original is
-0.046 m between neighbours and 0.070 m at revisits. Rows with *ours* use a scan every 0.2 m or 0.25 rad, and beams up to
+0.046 m between neighbours and 0.070 m at revisits. Rows marked *ours* use a scan every 0.2 m or 0.25 rad, and beams up to
 3 m.
 
 In rosmini the end of a beam counts only if the cell before it is free. The original is meant to check this, but looks
@@ -376,7 +376,7 @@ the laser sweeps, that is, measures its beams one after another. In `log_house` 
 odometry hector_mapping loses it, and so does the original, because its matcher cannot correct a scan that is turned by
 14 degrees. With odometry as the initial estimate, the original is off by 0.021 m.
 
-The robot waits for a second before it drives off, except in rows with *off at once*. In those rows, the first scan may
+The robot waits for a second before it drives off, except in rows marked *off at once*. In those rows, the first scan may
 be taken during a turn, and the sweep distorts it; this rotates the whole map, and the path with it.
 """,
     }

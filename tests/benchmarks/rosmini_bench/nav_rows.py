@@ -210,7 +210,7 @@ second, measures while the robot moves, and is noisy. The robot's pose comes fro
 How to read the table:
 
 - **Reached**: `move_base` reported `SUCCEEDED`, and the true pose was within the goal tolerance. With `amcl`, whose
-  estimate has an error, the true pose may be off by 0.25 m and 0.3 rad.
+  estimate has an error, the true pose may be up to 0.25 m and 0.3 rad from the goal.
 - **95% interval**: the Wilson interval for the proportion. If the intervals of two rows overlap, chance may explain the
   difference.
 - **Contacts**: the number of drives in which the robot hit something.
@@ -260,7 +260,7 @@ In the office both explorers miss rooms: the best run saw {most} of the floor, a
 as a wall, and a wall is not a frontier. The wall often stays on the map when the door opens: gmapping ignores a beam
 that hits nothing, and through an open door many beams hit nothing, because the room is deeper than the laser's range.
 People walking through a doorway have the same effect as a shut door. Neither explorer looks at a wall a second time,
-and the originals do not do so either.
+nor do the originals.
 """
 
 CROSSING = """## Robots that cross one another's paths
