@@ -358,8 +358,8 @@ Errors are distances from the true path, with both paths aligned at the start. *
 tolerance of two cells. `log_house` is a recorded drive on which we also ran the original gmapping: with its default
 parameters its error was 0.105 m, and 0.036 m at revisits, with a precision of 0.80 and a recall of 0.73. *csail* is a
 log of a real robot, for which the path that the original found is taken as the truth; the error of the original is
-0.046 m between neighbours and 0.070 m at revisits. Rows marked *ours* use a scan every 0.2 m or 0.25 rad, and beams up to
-3 m.
+0.046 m between neighbours and 0.070 m at revisits. Rows marked *ours* use a scan every 0.2 m or 0.25 rad, and
+beams up to 3 m.
 
 In rosmini the end of a beam counts only if the cell before it is free. The original is meant to check this, but looks
 up the wrong cell, so it counts every end. With the check, the result for csail is a little worse, but maps of the house
@@ -376,8 +376,8 @@ the laser sweeps, that is, measures its beams one after another. In `log_house` 
 odometry hector_mapping loses it, and so does the original, because its matcher cannot correct a scan that is turned by
 14 degrees. With odometry as the initial estimate, the original is off by 0.021 m.
 
-The robot waits for a second before it drives off, except in rows marked *off at once*. In those rows, the first scan may
-be taken during a turn, and the sweep distorts it; this rotates the whole map, and the path with it.
+The robot waits for a second before it drives off, except in rows marked *off at once*. In those rows, the first scan
+may be taken during a turn, and the sweep distorts it; this rotates the whole map, and the path with it.
 """,
     }
 )
