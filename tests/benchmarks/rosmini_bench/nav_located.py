@@ -288,7 +288,7 @@ INTRODUCTION = """# Localisation and mapping in figures
 
 How well do amcl, gmapping and hector_mapping know where the robot is? A driver node that knows the true pose drives a
 Burger through the simulator's worlds at 0.2 m/s, with turns on the spot. The laser measures while the robot moves, and
-the wheels slip. The runs of a row differ only in their seeds. Each cell shows the median over the runs, and in brackets
+the wheels slip. The runs in a row differ only in their seeds. Each cell shows the median over the runs, and in brackets
 the worst run; each chart shows a small point for each run, and a large one for the median. Each run is stored in
 `assets/benchmarks/localization.json`, with the commit that produced it. Chapters that quote a number link to its row
 here. To run more drives:
