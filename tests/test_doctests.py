@@ -4,21 +4,19 @@ from __future__ import annotations
 
 import doctest
 import importlib
-import pkgutil
+from pathlib import Path
 
 import pytest
 
-import rosmini
-
 FINDER = doctest.DocTestFinder(exclude_empty=True)
-WITHOUT = ("rosmini.__main__", "rosmini._assets", "rosmini.core.graph.promise_stacks", "rosmini.notebook.page")
+ROOT = Path(__file__).resolve().parents[1]
 
 
 def examples() -> list[doctest.DocTest]:
     """All docstrings of the library that hold an example."""
-    names = ["rosmini", *(found.name for found in pkgutil.walk_packages(rosmini.__path__, "rosmini."))]
-    modules = [importlib.import_module(name) for name in names if not name.startswith(WITHOUT)]
-    return [test for module in modules for test in FINDER.find(module) if test.examples]
+    paths = [path for path in sorted((ROOT / "rosmini").rglob("*.py")) if ">>> " in path.read_text(encoding="utf-8")]
+    names = [".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__") for path in paths]
+    return [test for name in names for test in FINDER.find(importlib.import_module(name)) if test.examples]
 
 
 @pytest.mark.parametrize("example", examples(), ids=lambda example: example.name)

@@ -7,9 +7,7 @@ the docstring of its package. `tests/book/test_rooms.py` fails when a page is st
 from __future__ import annotations
 
 import ast
-import io
 import re
-import tokenize
 import tomllib
 from functools import cache
 from pathlib import Path
@@ -22,10 +20,6 @@ SINGLE = {"msgs": "core"}
 """Packages at the top of the library that are part of a room."""
 UNIT = 500
 """Sizes are rounded to this many lines."""
-IS_NO_CODE = {
-    *(tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT),
-    *(tokenize.ENDMARKER, tokenize.COMMENT),
-}
 
 
 def imports(pyproject: str) -> dict[str, list[str]]:
@@ -67,15 +61,19 @@ def code_lines(place: Path) -> int:
 
 
 def _code_lines(source: str) -> int:
+    lines = map(str.strip, source.splitlines())
+    code = {number for number, line in enumerate(lines, 1) if line and not line.startswith("#")}
     docstrings: set[int] = set()
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str):
-            docstrings.update(range(node.lineno, (node.end_lineno or node.lineno) + 1))
-    code: set[int] = set()
-    for token in tokenize.generate_tokens(io.StringIO(source).readline):
-        if token.type not in IS_NO_CODE:
-            code.update(range(token.start[0], token.end[0] + 1))
+            docstrings.update(_span(node))
+        elif isinstance(node, (ast.Constant, ast.JoinedStr)):  # a string may hold blank lines
+            code.update(_span(node))
     return len(code - docstrings)
+
+
+def _span(node: ast.expr | ast.stmt) -> range:
+    return range(node.lineno, (node.end_lineno or node.lineno) + 1)
 
 
 def kernel(checkout: Path) -> list[Path]:

@@ -7,6 +7,7 @@ an entry of `SKIPPED` that no page shows any more. The page on commands has its 
 from __future__ import annotations
 
 import io
+import json
 import re
 import shlex
 import sys
@@ -15,7 +16,6 @@ from typing import NamedTuple
 
 import pytest
 
-from book.tools import notebooks
 from rosmini.tools.main import COMMANDS, main
 
 from ..notebook.conftest import notebook, shell  # noqa: F401 - fixtures
@@ -47,7 +47,8 @@ def blocks() -> list[Block]:
     """Return the fences with commands, in the order of the pages."""
     pages = [("README", (ROOT / "README.md").read_text(encoding="utf-8"))]
     for path in sorted((ROOT / "notebooks").rglob("*.ipynb")):
-        prose = [cell.source for cell in notebooks.read(path).cells if cell.cell_type == "markdown"]
+        cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
+        prose = ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "markdown"]
         pages += [(path.stem[3:], box) for text in prose for box in _BOX.findall(text)]
     found = []
     for page, text in pages:

@@ -41,7 +41,7 @@ def test_a_robot_between_a_stronger_one_and_a_wall_is_not_pushed_through_the_wal
     engine.add("between", BURGER, (0.1, 0.0, 0.0))
     engine.add("strong", WAFFLE, (-0.5, 0.0, 0.0))
     engine.command("strong", 0.26, 0.0)
-    engine.advance(10.0)
+    engine.advance(4.0)
     assert engine.robots["between"].corners()[:, 0].max() < 0.2 + 1e-4
     assert engine.pose("strong")[0] == pytest.approx(0.2 - 0.146 - 0.077, abs=1e-3)
 
