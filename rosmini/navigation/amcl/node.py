@@ -394,7 +394,7 @@ class Amcl:
 
     def _publish_cloud(self, stamp: Time) -> None:
         particles, frame = self.localizer.filter.particles.copy(), self.parameters.global_frame_id
-        self._cloud.publish(MessageFactory(lambda: cloud(particles, frame, stamp)))
+        self._cloud.publish(MessageFactory(lambda: cloud(particles, frame, stamp), is_frozen=True))
 
     def _broadcast(self, stamp: Time) -> None:
         p = self.parameters

@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 
 from rosmini.core.errors import ParameterError
 from rosmini.core.geometry.poses import Pose, compose, inverse
-from rosmini.core.graph import Node
+from rosmini.core.graph import MessageFactory, Node
 from rosmini.core.tf import Buffer, TransformException
 from rosmini.msgs import message_class
+from rosmini.msgs.template import template
 from rosmini.navigation.costmap_2d.costmap import INSCRIBED_INFLATED_OBSTACLE
 from rosmini.navigation.nav_core import ControlFailure, NoValidCommand, TransformMissing, pose_stamped
 from rosmini.navigation.nav_core.clouds import point_cloud
@@ -26,6 +27,9 @@ from .map_grid import MapGrid
 from .trajectory import Samples
 
 Floats = NDArray[np.float64]
+
+_VARYING = ("pose.position.x", "pose.position.y", "pose.orientation.z", "pose.orientation.w")
+"""The fields in which the poses of a path differ."""
 
 
 class Following:
@@ -111,8 +115,9 @@ class Publications:
         now = self.node.now()
         message = message_class("nav_msgs/Path")()
         message.header.frame_id, message.header.stamp = self.frame, now
-        message.poses = [pose_stamped(self.frame, now, (float(x), float(y), float(t))) for x, y, t in poses]
-        publisher.publish(message)
+        make = template(pose_stamped(self.frame, now, (0.0, 0.0, 0.0)), *_VARYING)
+        message.poses = [make(x, y, math.sin(yaw / 2), math.cos(yaw / 2)) for x, y, yaw in poses.tolist()]
+        publisher.publish(MessageFactory(lambda: message, is_frozen=True))
 
     def costs(self, grid: Any, path: MapGrid, goal: MapGrid, scales: tuple[float, float, float]) -> None:
         """Publish a cloud with each cell's distances to path and goal, its cost, and their sum weighted by `scales`.

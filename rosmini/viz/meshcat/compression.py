@@ -44,10 +44,14 @@ def _matches(data: bytes) -> Iterator[tuple[int, int, int]]:
     at = 0
     while at + MIN_MATCH <= len(data):
         places = known.setdefault(data[at : at + MIN_MATCH], [])
-        length, place = max(((_match_length(data, place, at), place) for place in places[-MAX_TRIES:]), default=(0, 0))
+        length = back = 0
+        for place in places[: -MAX_TRIES - 1 : -1]:
+            longer = data[at : at + length + 1]
+            if len(longer) > length and data.startswith(longer, place):
+                length, back = _match_length(data, place, at), at - place
         places.append(at)
         if length:
-            yield at, at - place, length
+            yield at, back, length
             for each in range(at + 1, min(at + length, len(data) - MIN_MATCH)):
                 known.setdefault(data[each : each + MIN_MATCH], []).append(each)
         at += length or 1
