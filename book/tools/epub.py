@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 
 from pygments.formatters import HtmlFormatter
 
+from .cover import ALT, draw_cover
 from .paper import TITLE, contents
 
 if TYPE_CHECKING:
@@ -37,9 +38,10 @@ PACKAGE = """<?xml version="1.0" encoding="UTF-8"?>
 <package xmlns="http://www.idpf.org/2007/opf" version="3.0" unique-identifier="id" xml:lang="en-GB">
 <metadata xmlns:dc="http://purl.org/dc/elements/1.1/"><dc:identifier id="id">urn:uuid:%(id)s</dc:identifier>
 <dc:title>%(title)s</dc:title><dc:language>en-GB</dc:language><dc:creator>The rosmini developers</dc:creator>
-<meta property="dcterms:modified">%(time)s</meta></metadata>
+<meta property="dcterms:modified">%(time)s</meta><meta name="cover" content="f-cover-png"/></metadata>
 <manifest>%(manifest)s</manifest><spine>%(spine)s</spine></package>
 """
+COVER = f'<section id="cover" epub:type="cover"><img src="cover.png" alt="{ALT}"/></section>'
 PAGE = """<?xml version="1.0" encoding="UTF-8"?>
 <!DOCTYPE html>
 <html xmlns="http://www.w3.org/1999/xhtml" xmlns:epub="http://www.idpf.org/2007/ops" lang="en-GB" xml:lang="en-GB">
@@ -50,7 +52,10 @@ PAGE = """<?xml version="1.0" encoding="UTF-8"?>
 
 def make_epub(site: Path, paper: Paper, output: Path) -> Path:
     """Pack the sheets into the file `output`; `site` is the folder of the built book, which has the pictures."""
-    files: dict[str, bytes] = {}
+    files = {
+        "cover.png": draw_cover(site / "_static", "png"),
+        "cover.xhtml": (PAGE % {"title": TITLE, "body": COVER}).encode(),
+    }
 
     def picture(found: re.Match[str]) -> str:
         start, _, data = found[2].partition(";base64,")
@@ -71,7 +76,7 @@ def make_epub(site: Path, paper: Paper, output: Path) -> Path:
     code = HtmlFormatter(style="a11y-high-contrast-light").get_style_defs(".highlight")
     rules = (site / "_static" / "paper.css").read_text(encoding="utf-8")
     files["book.css"] = "\n".join([code, resolve_variables(paper.styles), rules]).encode()
-    _pack(files, ["nav", *(sheet.key for sheet in paper.sheets)], output)
+    _pack(files, ["cover", "nav", *(sheet.key for sheet in paper.sheets)], output)
     return output
 
 
@@ -113,7 +118,8 @@ def _pack(files: dict[str, bytes], spine: list[str], output: Path) -> None:
         stem, _, suffix = name.rpartition(".")
         kind = TYPES.get(f".{suffix}") or {"css": "text/css", "xhtml": "application/xhtml+xml"}[suffix]
         marks = {"nav": stem == "nav", "svg": b"<svg" in content, "mathml": b"<math" in content}
-        properties = " ".join(mark for mark, is_set in marks.items() if is_set and suffix == "xhtml")
+        used = [mark for mark, is_set in marks.items() if is_set and suffix == "xhtml"]
+        properties = "cover-image" if name == "cover.png" else " ".join(used)
         properties = f' properties="{properties}"' if properties else ""
         items.append(f'<item id="f-{stem}-{suffix}" href="{name}" media-type="{kind}"{properties}/>')
     digest = hashlib.sha256(b"".join(files.values())).hexdigest()

@@ -7,6 +7,7 @@ again with the numbers read from the first PDF.
 
 from __future__ import annotations
 
+import base64
 import os
 import re
 import subprocess
@@ -19,6 +20,7 @@ from typing import TYPE_CHECKING
 from pygments.formatters import HtmlFormatter
 
 from .build import BookError, find_chromium
+from .cover import ALT, draw_cover
 from .paper import SOLUTIONS, TITLE, contents
 
 if TYPE_CHECKING:
@@ -58,6 +60,7 @@ def document(site: Path, paper: Paper, size: str) -> str:
     lines = [_line(*entry) for entry in contents(paper)]
     parts = [_part(name, sheets) for name, sheets in paper.parts()]
     running = [_running(sheet.key, sheet.title) for sheet in paper.sheets if sheet.part != SOLUTIONS]
+    cover = base64.b64encode(draw_cover(site / "_static", "svg")).decode()
     style = "\n".join([code, paper.styles, f"@page {{ size: {size}; }}", *running, _running("solutions", SOLUTIONS)])
     return (
         '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>'
@@ -65,7 +68,7 @@ def document(site: Path, paper: Paper, size: str) -> str:
         f'<base href="{site.resolve().as_uri()}/"><link rel="stylesheet" href="_static/rosmini.css">'
         '<link rel="stylesheet" href="_static/paper.css">'
         f'<link rel="stylesheet" href="_static/pdf.css"><style>{style}</style></head><body>'
-        '<section id="title"><p>rosmini</p><p>Learn ROS by driving a robot</p></section>'
+        f'<section id="title"><img alt="{ALT}" src="data:image/svg+xml;base64,{cover}"></section>'
         f'<section id="contents"><h1>Contents</h1>{"".join(lines)}</section>{"".join(parts)}</body></html>'
     )
 

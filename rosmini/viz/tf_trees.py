@@ -48,7 +48,7 @@ def _tree(source: Any) -> FrameTree:
 
 
 def _facts(edge: History) -> list[str]:
-    """Return the lines beside an edge: broadcaster, rate, most recent transform and buffer length."""
+    """Return the facts beside an edge: broadcaster, rate, most recent transform and buffer length."""
     sender = f"Broadcaster: {edge.newest.authority or 'unknown'}"
     if edge.static:
         return [sender, "static"]
@@ -58,6 +58,12 @@ def _facts(edge: History) -> list[str]:
         f"Most recent: {edge.newest_ns / 1e9:.3f} s",
         f"Buffer length: {edge.span_ns / 1e9:.3f} s",
     ]
+
+
+def _lines(edge: History) -> list[str]:
+    """Return the facts as lines; a broadcaster's name has its own, since siblings make a tree wider than a page."""
+    sender, *others = _facts(edge)
+    return [*sender.split(" "), *others]
 
 
 def _alt(tree: FrameTree) -> str:
@@ -74,9 +80,9 @@ def _draw(tree: FrameTree, title: str, alt: str) -> str:
     ]
     edges = []
     for frame, edge in sorted(tree.edges.items()):
-        edges.append(Edge(frame, edge.newest.parent, frame, *room_for(_facts(edge))))
+        edges.append(Edge(frame, edge.newest.parent, frame, *room_for(_lines(edge))))
     layout = layered(vertices, edges, direction="down")
-    parts = [_edge(layout, edge, _facts(tree.edges[edge.name])) for edge in edges]
+    parts = [_edge(layout, edge, _lines(tree.edges[edge.name])) for edge in edges]
     parts += [_frame(layout, vertex, root=vertex.name not in tree.edges) for vertex in vertices]
     if not parts:
         parts = [text("(no frame to show)", 80.0, 20.0, size=None, colour="muted", kind="tf-none")]

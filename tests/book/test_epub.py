@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import io
 import zipfile
 from urllib.parse import urldefrag
 from xml.etree import ElementTree as ET
 
+import matplotlib.image
 import pytest
 
 from book.tools.epub import make_epub, resolve_variables
 from book.tools.paper import contents, listed_pages, read_sheets
+
+from ..conftest import nightly
 
 XHTML = "{http://www.w3.org/1999/xhtml}"
 OPF = "{http://www.idpf.org/2007/opf}"
@@ -34,7 +38,10 @@ def check(path, paper):
         assert item.get("media-type") == KINDS[item.get("href").rpartition(".")[2]]
     pages = {name: ET.fromstring(text) for name, text in files.items() if name.endswith(".xhtml")}
     spine = [items[ref.get("idref")].get("href") for ref in opf.iter(f"{OPF}itemref")]
-    assert spine == ["nav.xhtml", *(f"{sheet.key}.xhtml" for sheet in paper.sheets)]
+    assert spine == ["cover.xhtml", "nav.xhtml", *(f"{sheet.key}.xhtml" for sheet in paper.sheets)]
+    (cover,) = [item.get("href") for item in items.values() if item.get("properties") == "cover-image"]
+    assert [image.get("src") for image in pages["cover.xhtml"].iter(f"{XHTML}img")] == [cover]
+    assert matplotlib.image.imread(io.BytesIO(files[cover])).shape[:2] == (1753, 1240)
     ids = {name: [tag.get("id") for tag in page.iter() if tag.get("id")] for name, page in pages.items()}
     for name, page in pages.items():
         assert len(ids[name]) == len(set(ids[name]))
@@ -49,15 +56,10 @@ def check(path, paper):
     assert shown == [title for _, _, title in contents(paper)]
 
 
-def test_chapters_make_a_sound_epub(book_html, root, tmp_path):
+@pytest.mark.parametrize("names", [PAGES, *nightly(None)])
+def test_chapters_make_a_sound_epub_and_so_does_the_whole_book(book_html, root, tmp_path, names):
     listed = listed_pages(root)
-    paper = read_sheets(book_html, {name: listed[name] for name in PAGES})
-    check(make_epub(book_html, paper, tmp_path / "book.epub"), paper)
-
-
-@pytest.mark.nightly
-def test_the_whole_book_makes_a_sound_epub(book_html, root, tmp_path):
-    paper = read_sheets(book_html, listed_pages(root))
+    paper = read_sheets(book_html, {name: listed[name] for name in names or listed})
     check(make_epub(book_html, paper, tmp_path / "book.epub"), paper)
 
 

@@ -6,7 +6,7 @@ the page with :meth:`RVizWindow.set`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -44,6 +44,8 @@ SETTLES_NS = 2_000_000_000
 ZOOM = 1.25
 STEP = 0.2
 """Distance that an arrow key moves the pointer, in tenths of the picture's height."""
+CROSS = 8.0
+"""Half the size of the cross at a pointer that keys move [px]."""
 YELLOW = np.array([1.0, 0.9, 0.2, 1.0])
 ARROWS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, -1), "ArrowDown": (0, 1)}
 WORDS = {"press": 2, "move": 2, "release": 2, "wheel": 3, "orbit": NUMBERS}
@@ -97,6 +99,8 @@ class RVizWindow(Panel):
         self._has_webgl = is_possible()
         self._is_pressed = self._is_dragged = False
         self._pointer = np.array(self._size) / 2
+        self._uses_keys = False
+        """True if a key moved the pointer last; then the window draws it."""
         self._said = self.tools.current.hint
         self._fits_until_ns = self.scene.context.now_ns + SETTLES_NS if self.scene.view is None else 0
 
@@ -191,6 +195,8 @@ class RVizWindow(Panel):
         found = list(tool.primitives())
         if isinstance(tool, Select) and tool.corners is not None and self._is_pressed and projection is not None:
             found.append(_rectangle(*tool.corners, projection))
+        if self._uses_keys and projection is not None:
+            found += _cross(self._pointer, projection)
         return found
 
     def _picture(self, projection: Projection) -> Drawing:
@@ -286,6 +292,7 @@ class RVizWindow(Panel):
         """Carry out a pointer action on the picture; see `Drawing`. Raises `ViewError` for any other text."""
         kind, *rest = text.split() or [""]
         self._fits_until_ns = 0
+        self._uses_keys = kind == "key"
         if kind == "key" and len(rest) == 1:
             self._press_key(rest[0])
             return
@@ -370,6 +377,12 @@ def _rectangle(first: Floats, last: Floats, projection: Projection) -> Lines:
     (left, top), (right, bottom) = projection.pixels(np.array([first, last]))
     corners = [(left, top), (right, top), (right, bottom), (left, bottom), (left, top)]
     return Lines(np.array([projection.metres(*corner) for corner in corners]), YELLOW)
+
+
+def _cross(pointer: Floats, projection: Projection) -> Iterator[Lines]:
+    """Yield the two lines of a cross on the ground, at a pixel."""
+    for along in ((CROSS, 0.0), (0.0, CROSS)):
+        yield Lines(np.array([projection.metres(*(pointer + side * np.array(along))) for side in (-1, 1)]), YELLOW)
 
 
 def _title(name: str) -> str:
