@@ -7,25 +7,15 @@ from typing import TYPE_CHECKING
 from rosmini.book.checks import Script
 from rosmini.book.exercises.actionlib import SERVER
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 PACKAGE = {"action/Drive.action": "float64 distance\n---\nfloat64 travelled\n---\nfloat64 travelled\n"}
 """Files that cells of the chapter write into the notebook's package."""
 
-BUTTON = """
-import rospy
-from actionlib_msgs.msg import GoalID
-from std_msgs.msg import Empty
-
-def on_stop(message):
-    cancel.publish(GoalID())
-
-rospy.init_node("stop_button")
-cancel = rospy.Publisher("drive/cancel", GoalID, queue_size=1)
-rospy.Subscriber("stop", Empty, on_stop)
-rospy.spin()
-"""
+BUTTON = solution("actionlib", "stop_button")
 
 RETURN = """
 import actionlib

@@ -8,6 +8,8 @@ import numpy as np
 
 from rosmini.book.checks import Script
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -32,53 +34,7 @@ message.pose.covariance[35] = 0.1 ** 2
 pub.publish(message)
 """
 
-COURIER = """
-import rospy
-from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, Twist
-from sensor_msgs.msg import LaserScan
-from std_srvs.srv import Empty
-
-turning, found = 0.0, False
-
-
-def on_pose(message):
-    global found
-    covariance = message.pose.covariance
-    if not found and max(covariance[0], covariance[7]) < 0.2**2:
-        found = True
-        cmd_vel.publish(Twist())
-        goals.publish(goal)
-
-
-def on_scan(scan):
-    global turning
-    if found:
-        return
-    left, right = scan.ranges[:120], scan.ranges[-120:]
-    if min(left[:35] + right[-35:]) > 0.5:
-        turning = 0.0
-    elif not turning:
-        turning = 0.8 if sum(left) > sum(right) else -0.8
-    command = Twist()
-    command.linear.x = 0.0 if turning else 0.2
-    command.angular.z = turning
-    cmd_vel.publish(command)
-
-
-rospy.init_node("courier")
-cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
-goals = rospy.Publisher("move_base_simple/goal", PoseStamped, queue_size=1)
-goal = PoseStamped()
-goal.header.frame_id = "map"
-goal.pose.position.x, goal.pose.position.y = -2.2, -1.2
-goal.pose.orientation.w = 1.0
-rospy.wait_for_service("global_localization")
-rospy.ServiceProxy("global_localization", Empty)()
-rospy.sleep(1)  # until amcl has published a pose of its new particles
-rospy.Subscriber("amcl_pose", PoseWithCovarianceStamped, on_pose)
-rospy.Subscriber("scan", LaserScan, on_scan)
-rospy.spin()
-"""
+COURIER = solution("amcl", "find_yourself")
 
 
 def _but(old: str, new: str, right: str = HERE) -> Callable[[], Any]:

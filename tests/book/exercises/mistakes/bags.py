@@ -3,37 +3,11 @@
 from __future__ import annotations
 
 from .nodes_and_master import wrong
+from .published import solution
 
-SILENCE = """
-import sys
+SILENCE = solution("bags", "longest_silence")
 
-import rosbag
-
-with rosbag.Bag(sys.argv[1]) as bag:
-    times = [t.to_sec() for _, _, t in bag.read_messages(sys.argv[2])]
-print(max(later - earlier for earlier, later in zip(times, times[1:])))
-"""
-
-WAY_BACK = """
-import sys
-
-import rosbag
-import rospy
-from geometry_msgs.msg import Twist
-
-with rosbag.Bag(sys.argv[1]) as bag:
-    drive = [(m, t) for _, m, t in bag.read_messages("/cmd_vel")]
-
-rospy.init_node("way_back")
-cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
-rospy.sleep(0.5)
-for (command, begin), (_, end) in reversed(list(zip(drive, drive[1:]))):
-    command.linear.x *= -1
-    command.angular.z *= -1
-    cmd_vel.publish(command)
-    rospy.sleep(end - begin)
-cmd_vel.publish(Twist())
-"""
+WAY_BACK = solution("bags", "way_back")
 
 MISTAKES = {
     "longest_silence": [

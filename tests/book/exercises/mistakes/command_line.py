@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.book.checks import Script
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -21,21 +23,7 @@ COMMANDS = {
 
 FOUND = {"type": "sensor_msgs/JointState", "rate": 30, "frame": "odom", "service": "roscpp/SetLoggerLevel"}
 
-COUNT = """
-import rospy
-from std_msgs.msg import Empty, Float32
-
-def report(event):
-    rate.publish(len(beats))
-    beats.clear()
-
-beats = []
-rospy.init_node("count")
-rate = rospy.Publisher("rate", Float32, queue_size=1)
-rospy.Subscriber("beat", Empty, beats.append)
-rospy.Timer(rospy.Duration(1), report)
-rospy.spin()
-"""
+COUNT = solution("command_line", "count")
 
 
 def _count(old: str, new: str) -> Callable[[], Script]:

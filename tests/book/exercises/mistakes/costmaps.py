@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from rosmini.book.checks import Script
 
 from .file_system import wrong
+from .published import solution
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -74,30 +75,7 @@ global_costmap:
   robot_radius: 0.12
 """
 
-COST_THERE = """
-import math
-
-import rospy
-from geometry_msgs.msg import PointStamped
-from nav_msgs.msg import OccupancyGrid
-from std_msgs.msg import Int8
-
-def on_question(question):
-    info, corner = grid.info, grid.info.origin.position
-    column = math.floor((question.point.x - corner.x) / info.resolution)
-    row = math.floor((question.point.y - corner.y) / info.resolution)
-    if 0 <= column < info.width and 0 <= row < info.height:
-        cost.publish(grid.data[row * info.width + column])
-    else:
-        cost.publish(-1)
-
-rospy.init_node("dispatcher")
-name = "/move_base/global_costmap/costmap"
-grid = rospy.wait_for_message(name, OccupancyGrid)
-cost = rospy.Publisher("cost", Int8, queue_size=1)
-rospy.Subscriber("question", PointStamped, on_question)
-rospy.spin()
-"""
+COST_THERE = solution("costmaps", "cost_there")
 
 
 def _script(old: str, new: str) -> Callable[[], Script]:

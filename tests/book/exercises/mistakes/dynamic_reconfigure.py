@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from .nodes_and_master import wrong
+from .published import solution
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -20,42 +21,9 @@ gen.add("flip", bool_t, 2, "turn images upside down", False)
 exit(gen.generate("watcher", "camera", "Camera"))
 """
 
-CAREFUL = """
-import rospy
-from dynamic_reconfigure.client import Client
-from sensor_msgs.msg import LaserScan
+CAREFUL = solution("dynamic_reconfigure", "careful_client")
 
-rospy.init_node("careful")
-client = Client("courier", timeout=10)
-speed = None
-while not rospy.is_shutdown():
-    scan = rospy.wait_for_message("scan", LaserScan)
-    wanted = 0.05 if scan.ranges[0] < 1.5 else 0.2
-    if wanted != speed:
-        client.update_configuration({"speed": wanted})
-        speed = wanted
-"""
-
-LIGHTS = """
-import rospy
-from dynamic_reconfigure.client import Client
-
-wanted = None
-
-def on_config(config):
-    global wanted
-    wanted = config.speed > 0.15
-
-rospy.init_node("lights")
-client = Client("courier", timeout=10, config_callback=on_config)
-rate = rospy.Rate(10)
-lights = None
-while not rospy.is_shutdown():
-    if wanted is not None and wanted != lights:
-        client.update_configuration({"lights": wanted})
-        lights = wanted
-    rate.sleep()
-"""
+LIGHTS = solution("dynamic_reconfigure", "lights")
 
 
 def _camera(old: str, new: str) -> Callable[[], str]:

@@ -6,26 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.book.checks import Script
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-FAST = """
-import os
-
-import rospy
-from geometry_msgs.msg import Twist
-
-def drive(event):
-    cmd_vel.publish(command)
-
-rospy.init_node("driver")
-cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
-command = Twist()
-model = os.environ.get("TURTLEBOT3_MODEL", "burger")
-command.linear.x = 0.22 if model == "burger" else 0.26
-rospy.Timer(rospy.Duration(0.1), drive)
-rospy.spin()
-"""
+FAST = solution("environment", "fast")
 
 
 def _fast(old: str, new: str) -> Callable[[], Script]:

@@ -7,27 +7,12 @@ from typing import TYPE_CHECKING, Any
 from rosmini.book.checks import Script
 
 from .file_system import wrong
+from .published import solution
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-COUNTER = """
-import rospy
-from std_msgs.msg import String
-from visualization_msgs.msg import Marker, MarkerArray
-
-
-def on_frontiers(message):
-    lines = [m for m in message.markers if m.type == Marker.POINTS]
-    red = sum(m.color.r == 1.0 for m in lines)
-    report.publish(f"{len(lines) - red} open, {red} given up")
-
-
-rospy.init_node("counter")
-report = rospy.Publisher("report", String, queue_size=1)
-rospy.Subscriber("explore/frontiers", MarkerArray, on_frontiers)
-rospy.spin()
-"""
+COUNTER = solution("explore_lite", "frontier_count")
 
 
 def _but(right: str, old: str, new: str) -> Callable[[], Script]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from . import file_system
 from .nodes_and_master import wrong
+from .published import solution
 
 MAST = """
 <robot name="courier" xmlns:xacro="http://ros.org/wiki/xacro">
@@ -30,25 +31,7 @@ MAST = """
 </robot>
 """
 
-LIFT = """
-import rospy
-from nav_msgs.msg import Odometry
-from sensor_msgs.msg import JointState
-
-def on_odom(odom):
-    speed = odom.twist.twist
-    moves = abs(speed.linear.x) > 0.01 or abs(speed.angular.z) > 0.01
-    state = JointState()
-    state.header.stamp = odom.header.stamp
-    state.name = ["lift_joint"]
-    state.position = [0.0 if moves else 1.57]
-    joints.publish(state)
-
-rospy.init_node("lift")
-joints = rospy.Publisher("joint_states", JointState, queue_size=5)
-rospy.Subscriber("odom", Odometry, on_odom, queue_size=1)
-rospy.spin()
-"""
+LIFT = solution("family_and_description", "flag_up")
 
 WEIGH = """
 import xml.etree.ElementTree as ElementTree

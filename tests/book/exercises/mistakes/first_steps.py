@@ -3,24 +3,9 @@
 from __future__ import annotations
 
 from .nodes_and_master import wrong
+from .published import solution
 
-STOP = """
-import rospy
-from geometry_msgs.msg import Twist
-from sensor_msgs.msg import LaserScan
-
-def on_scan(scan):
-    command = Twist()
-    command.linear.x = 0.2
-    if scan.ranges[0] < 0.5:
-        command.linear.x = 0.0
-    cmd_vel.publish(command)
-
-rospy.init_node("driver")
-cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
-rospy.Subscriber("scan", LaserScan, on_scan)
-rospy.spin()
-"""
+STOP = solution("first_steps", "first_stop")
 
 MISTAKES = {
     "first_stop": [

@@ -6,53 +6,14 @@ from typing import TYPE_CHECKING
 
 from rosmini.book.checks import Script
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-CARROT = """
-import math
-import rospy
-import tf2_ros
-from geometry_msgs.msg import TransformStamped
+CARROT = solution("frames", "carrot")
 
-def swing(event):
-    pose = TransformStamped()
-    now = rospy.Time.now()
-    pose.header.stamp = now
-    pose.header.frame_id = "base_footprint"
-    pose.child_frame_id = "carrot"
-    pose.transform.translation.x = 0.5
-    pose.transform.translation.y = 0.4 * math.sin(now.to_sec())
-    pose.transform.rotation.w = 1.0
-    broadcaster.sendTransform(pose)
-
-rospy.init_node("carrot")
-broadcaster = tf2_ros.TransformBroadcaster()
-rospy.Timer(rospy.Duration(0.05), swing)
-rospy.spin()
-"""
-
-MOUNT = """
-import math
-import rospy
-import tf2_ros
-from geometry_msgs.msg import TransformStamped
-from tf.transformations import quaternion_from_euler
-
-rospy.init_node("mount")
-pose = TransformStamped()
-pose.header.stamp = rospy.Time.now()
-pose.header.frame_id = "base_link"
-pose.child_frame_id = "flipped"
-pose.transform.translation.x = 0.1
-pose.transform.translation.z = 0.3
-q = quaternion_from_euler(math.pi, 0, 0)
-pose.transform.rotation.x, pose.transform.rotation.y = q[:2]
-pose.transform.rotation.z, pose.transform.rotation.w = q[2:]
-broadcaster = tf2_ros.StaticTransformBroadcaster()
-broadcaster.sendTransform(pose)
-rospy.spin()
-"""
+MOUNT = solution("frames", "upside_down")
 
 LOCALISE = """
 import rospy

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 from rosmini.book.checks import Script
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -19,36 +21,9 @@ generate_messages(DEPENDENCIES geometry_msgs)
 catkin_package(CATKIN_DEPENDS message_runtime)
 """
 
-OBEY = """
-import rospy
-from geometry_msgs.msg import Twist
-from std_msgs.msg import String
+OBEY = solution("from_scratch", "obey")
 
-def on_order(order):
-    command = Twist()
-    if order.data == "ahead":
-        command.linear.x = 0.1
-    elif order.data == "left":
-        command.angular.z = 0.5
-    elif order.data == "right":
-        command.angular.z = -0.5
-    cmd_vel.publish(command)
-
-rospy.init_node("driver")
-cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
-rospy.Subscriber("order", String, on_order)
-rospy.spin()
-"""
-
-PARROT = """
-import rospy
-from std_msgs.msg import String
-
-rospy.init_node("parrot", anonymous=True)
-echo = rospy.Publisher("echo", String, queue_size=10)
-rospy.Subscriber("chatter", String, echo.publish)
-rospy.spin()
-"""
+PARROT = solution("from_scratch", "parrot")
 
 
 def wrong(right: str, old: str, new: str = "") -> Callable[[], str]:

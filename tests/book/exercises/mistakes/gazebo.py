@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 from rosmini.book.checks import Script
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -58,32 +60,7 @@ get_physics = rospy.ServiceProxy("/gazebo/get_physics_properties", GetPhysicsPro
 rospy.set_param("/mu", measure())
 """
 
-LEASH = """
-import math
-import rospy
-from gazebo_msgs.msg import ModelState, ModelStates
-from gazebo_msgs.srv import SetModelState
-
-ROBOT = "turtlebot3_burger"
-home = None
-
-
-def on_states(states):
-    global home
-    pose = states.pose[states.name.index(ROBOT)]
-    home = home or pose
-    x = pose.position.x - home.position.x
-    y = pose.position.y - home.position.y
-    if math.hypot(x, y) > 1.0:
-        set_state(ModelState(model_name=ROBOT, pose=home))
-
-
-rospy.init_node("leash")
-rospy.wait_for_service("/gazebo/set_model_state")
-set_state = rospy.ServiceProxy("/gazebo/set_model_state", SetModelState)
-rospy.Subscriber("/gazebo/model_states", ModelStates, on_states)
-rospy.spin()
-"""
+LEASH = solution("gazebo", "leash")
 
 
 def _with(script: str, old: str, new: str) -> Callable[[], Script]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from rosmini.book.checks import Script
 
 from .file_system import wrong
+from .published import solution
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -19,36 +20,7 @@ GlobalPlanner:
   cost_factor: 0.8
 """
 
-NEAREST = """
-from math import hypot, inf
-
-import rospy
-from geometry_msgs.msg import PoseArray, PoseStamped
-from nav_msgs.srv import GetPlan
-
-def length(goal):
-    plan = make_plan(PoseStamped(), goal, 0.0).plan.poses
-    points = [each.pose.position for each in plan]
-    if not points:
-        return inf
-    pairs = zip(points, points[1:])
-    return sum(hypot(b.x - a.x, b.y - a.y) for a, b in pairs)
-
-def on_recipients(recipients):
-    header = recipients.header
-    stops = [PoseStamped(header, pose) for pose in recipients.poses]
-    nearest = min(stops, key=length)
-    if length(nearest) < inf:
-        goals.publish(nearest)
-
-rospy.init_node("nearest")
-rospy.wait_for_service("move_base/make_plan")
-make_plan = rospy.ServiceProxy("move_base/make_plan", GetPlan)
-topic = "move_base_simple/goal"
-goals = rospy.Publisher(topic, PoseStamped, queue_size=1)
-rospy.Subscriber("recipients", PoseArray, on_recipients)
-rospy.spin()
-"""
+NEAREST = solution("global_planners", "first_delivery")
 
 
 def _but(old: str, new: str) -> Callable[[], Script]:

@@ -8,42 +8,12 @@ import numpy as np
 
 from rosmini.book.checks import Script
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-SURVEYOR = """
-import rospy
-from geometry_msgs.msg import Twist
-from nav_msgs.msg import OccupancyGrid
-from sensor_msgs.msg import LaserScan
-
-state = {"known": 0, "dull": 0}
-
-
-def on_map(grid):
-    known = sum(cell >= 0 for cell in grid.data)
-    news = known - state["known"]
-    if state["dull"] < 3:
-        state["dull"] = state["dull"] + 1 if news < 40 else 0
-    state["known"] = known
-
-
-def on_scan(scan):
-    command = Twist()
-    if state["dull"] < 3:
-        if min(scan.ranges[:30] + scan.ranges[-30:]) > 0.4:
-            command.linear.x = 0.2
-        else:
-            command.angular.z = 0.7
-    cmd_vel.publish(command)
-
-
-rospy.init_node("surveyor")
-cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
-rospy.Subscriber("map", OccupancyGrid, on_map)
-rospy.Subscriber("scan", LaserScan, on_scan)
-rospy.spin()
-"""
+SURVEYOR = solution("gmapping", "map_is_done")
 
 MAPPER = """
 <launch>

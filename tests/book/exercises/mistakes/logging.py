@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 from rosmini.book.checks import Script
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -45,20 +47,7 @@ rospy.Subscriber("/rosout_agg", Log, on_log)
 rospy.spin()
 """
 
-CLOSER = """
-import rospy
-from roscpp.srv import SetLoggerLevel
-from rosgraph_msgs.msg import Log
-
-def on_log(log):
-    if log.level >= Log.ERROR:
-        name = log.name + "/set_logger_level"
-        rospy.ServiceProxy(name, SetLoggerLevel)("rosout", "debug")
-
-rospy.init_node("look_closer")
-rospy.Subscriber("/rosout_agg", Log, on_log)
-rospy.spin()
-"""
+CLOSER = solution("logging", "look_closer")
 
 
 def _changed(name: str, source: str, before: str, after: str) -> Callable[[], Script]:

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 from rosmini.book.checks import Script
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -16,23 +18,7 @@ export ROS_IP=192.168.1.42
 
 CAUSES = {"Ada": "master", "Ben": "clock", "Cem": "address", "Dea": "name"}
 
-MIRROR = """
-import rospy
-from geometry_msgs.msg import Twist
-
-
-def on_command(command):
-    other = Twist()
-    other.linear = command.linear
-    other.angular.z = -command.angular.z
-    mirrored.publish(other)
-
-
-rospy.init_node("mirror")
-mirrored = rospy.Publisher("/two/turtle1/cmd_vel", Twist, queue_size=1)
-rospy.Subscriber("/one/turtle1/cmd_vel", Twist, on_command)
-rospy.spin()
-"""
+MIRROR = solution("many_machines", "other_way_round")
 
 
 def _lines(old: str, new: str) -> Callable[[], str]:

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 from rosmini.book.checks import Script
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -21,25 +23,7 @@ THIRD_ROBOT = """
 </group>
 """
 
-FOLLOW = """
-import rospy
-from geometry_msgs.msg import Twist
-from sensor_msgs.msg import LaserScan
-
-
-def on_scan(scan):
-    ahead = min(scan.ranges[:21] + scan.ranges[-20:])
-    command = Twist()
-    if ahead < 1.0:
-        command.linear.x = max(-0.1, min(ahead - 0.4, 0.2))
-    cmd_vel.publish(command)
-
-
-rospy.init_node("follow")
-cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
-rospy.Subscriber("scan", LaserScan, on_scan)
-rospy.spin()
-"""
+FOLLOW = solution("many_turtlebots", "follow")
 
 TWO_STACKS = """
 <launch>

@@ -8,36 +8,12 @@ import numpy as np
 
 from rosmini.book.checks import Script
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-HERE = """
-import math
-
-import rospy
-from geometry_msgs.msg import PointStamped
-from nav_msgs.msg import OccupancyGrid
-from std_msgs.msg import Int8
-
-
-def on_point(point):
-    info = grid.info
-    x = point.point.x - info.origin.position.x
-    y = point.point.y - info.origin.position.y
-    column = math.floor(x / info.resolution)
-    row = math.floor(y / info.resolution)
-    if 0 <= column < info.width and 0 <= row < info.height:
-        value.publish(grid.data[row * info.width + column])
-    else:
-        value.publish(-1)
-
-
-rospy.init_node("here")
-grid = rospy.wait_for_message("map", OccupancyGrid)
-value = rospy.Publisher("cell_value", Int8, queue_size=1)
-rospy.Subscriber("clicked_point", PointStamped, on_point)
-rospy.spin()
-"""
+HERE = solution("maps", "here")
 
 KEEPOUT = """
 import rospy
@@ -63,24 +39,7 @@ rospy.Subscriber("map", OccupancyGrid, on_map)
 rospy.spin()
 """
 
-LIFT = """
-import rospy
-from nav_msgs.srv import LoadMap
-from std_msgs.msg import String
-
-
-def on_floor(message):
-    answer = change_map(message.data)
-    if answer.result != answer.RESULT_SUCCESS:
-        rospy.logerr("no map of this floor: %s", message.data)
-
-
-rospy.init_node("lift")
-rospy.wait_for_service("change_map")
-change_map = rospy.ServiceProxy("change_map", LoadMap)
-rospy.Subscriber("floor", String, on_floor)
-rospy.spin()
-"""
+LIFT = solution("maps", "lift")
 
 
 def _but(right: str, old: str, new: str) -> Callable[[], Script]:

@@ -6,51 +6,14 @@ from typing import TYPE_CHECKING
 
 from rosmini.book.checks import Script
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-PATROL = """
-import actionlib
-import rospy
-from move_base_msgs.msg import MoveBaseAction, MoveBaseGoal
+PATROL = solution("move_base", "patrol")
 
-rospy.init_node("patrol")
-client = actionlib.SimpleActionClient("move_base", MoveBaseAction)
-client.wait_for_server()
-for x, y in [(-1.0, 0.9), (0.3, 0.9), (0.9, 2.4)]:
-    goal = MoveBaseGoal()
-    goal.target_pose.header.frame_id = "map"
-    goal.target_pose.pose.position.x = x
-    goal.target_pose.pose.position.y = y
-    goal.target_pose.pose.orientation.w = 1
-    client.send_goal(goal)
-    client.wait_for_result()
-"""
-
-COURIER = """
-import actionlib
-import rospy
-from geometry_msgs.msg import PoseStamped
-from move_base_msgs.msg import MoveBaseAction, MoveBaseGoal
-from std_msgs.msg import String
-
-
-def on_place(pose):
-    client.send_goal(MoveBaseGoal(target_pose=pose))
-    client.wait_for_result()
-    if client.get_state() == actionlib.GoalStatus.SUCCEEDED:
-        report.publish("arrived")
-    else:
-        report.publish(client.get_goal_status_text())
-
-
-rospy.init_node("courier")
-report = rospy.Publisher("report", String, queue_size=10)
-client = actionlib.SimpleActionClient("move_base", MoveBaseAction)
-client.wait_for_server()
-rospy.Subscriber("places", PoseStamped, on_place)
-rospy.spin()
-"""
+COURIER = solution("move_base", "courier")
 
 
 def _but(right: str, old: str, new: str) -> Callable[[], Script]:

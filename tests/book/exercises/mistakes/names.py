@@ -6,42 +6,14 @@ from typing import TYPE_CHECKING
 
 from rosmini.book.checks import Script
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-REPORT = """
-import rospy
-from sensor_msgs.msg import LaserScan
-from std_msgs.msg import String
+REPORT = solution("names", "report")
 
-def on_scan(scan):
-    name = rospy.get_namespace().rstrip("/")
-    report.publish(f"{name}: {scan.ranges[0]:.2f} m")
-
-rospy.init_node("report")
-report = rospy.Publisher("/report", String, queue_size=10)
-rospy.Subscriber("scan", LaserScan, on_scan)
-rospy.spin()
-"""
-
-DANCE = """
-import rospy
-from geometry_msgs.msg import Twist
-
-rospy.init_node("dance")
-publishers = []
-for topic, _ in rospy.get_published_topics():
-    if topic.endswith("/scan"):
-        robot = topic.removesuffix("/scan")
-        publishers.append(rospy.Publisher(robot + "/cmd_vel", Twist, queue_size=1))
-
-command = Twist()
-command.angular.z = 1.0
-while not rospy.is_shutdown():
-    for publisher in publishers:
-        publisher.publish(command)
-    rospy.sleep(0.1)
-"""
+DANCE = solution("names", "dance")
 
 
 def wrong(name: str, right: str, old: str, new: str) -> Callable[[], Script]:

@@ -6,36 +6,12 @@ from typing import TYPE_CHECKING
 
 from rosmini.book.checks import Script
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-ONE_CLICK = """
-import math
-
-import rospy
-import tf2_ros
-from geometry_msgs.msg import PointStamped, PoseStamped
-
-
-def on_point(clicked):
-    here = buffer.lookup_transform("map", "base_footprint", rospy.Time(0))
-    here = here.transform.translation
-    goal = PoseStamped()
-    goal.header.frame_id = clicked.header.frame_id
-    goal.pose.position = clicked.point
-    yaw = math.atan2(clicked.point.y - here.y, clicked.point.x - here.x)
-    goal.pose.orientation.z = math.sin(yaw / 2)
-    goal.pose.orientation.w = math.cos(yaw / 2)
-    goals.publish(goal)
-
-
-rospy.init_node("one_click")
-goals = rospy.Publisher("move_base_simple/goal", PoseStamped, queue_size=1)
-buffer = tf2_ros.Buffer()
-listener = tf2_ros.TransformListener(buffer)
-rospy.Subscriber("clicked_point", PointStamped, on_point)
-rospy.spin()
-"""
+ONE_CLICK = solution("navigation_goal", "one_click")
 
 HOME = """
 import rospy

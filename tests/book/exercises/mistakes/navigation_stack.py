@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 from rosmini.book.checks import Script
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -25,21 +27,7 @@ STACK = """
 </launch>
 """
 
-GOAL = """
-import rospy
-from geometry_msgs.msg import PoseStamped
-
-rospy.init_node("go_there")
-goals = rospy.Publisher("move_base_simple/goal", PoseStamped, queue_size=1)
-while goals.get_num_connections() == 0:
-    rospy.sleep(0.1)
-goal = PoseStamped()
-goal.header.frame_id = "map"
-goal.pose.position.x, goal.pose.position.y = -1.0, 2.6
-goal.pose.orientation.z = goal.pose.orientation.w = 0.7071
-goals.publish(goal)
-rospy.sleep(1.0)
-"""
+GOAL = solution("navigation_stack", "go_there")
 
 NEAREST = """
 import math

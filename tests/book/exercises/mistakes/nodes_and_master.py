@@ -6,25 +6,12 @@ from typing import TYPE_CHECKING
 
 from rosmini.book.checks import Script
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-STOP = """
-import rospy
-from geometry_msgs.msg import Twist
-from sensor_msgs.msg import LaserScan
-
-def on_scan(scan):
-    command = Twist()
-    if scan.ranges[0] > 0.4:
-        command.linear.x = 0.2
-    cmd_vel.publish(command)
-
-rospy.init_node("driver")
-cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
-rospy.Subscriber("scan", LaserScan, on_scan)
-rospy.spin()
-"""
+STOP = solution("nodes_and_master", "stop")
 
 STOP_BY_TIME = """
 import rospy
@@ -40,31 +27,9 @@ for _ in range(144):
 rospy.spin()
 """
 
-GENTLE = """
-import rospy
-from geometry_msgs.msg import Twist
+GENTLE = solution("nodes_and_master", "gentle")
 
-def on_wish(wish):
-    command = Twist()
-    command.linear.x = wish.linear.x / 2
-    command.angular.z = wish.angular.z / 2
-    cmd_vel.publish(command)
-
-rospy.init_node("gentle")
-cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
-rospy.Subscriber("wish", Twist, on_wish)
-rospy.spin()
-"""
-
-INTRODUCE = """
-import rosgraph
-import rospy
-
-master = rosgraph.Master("/introduce")
-driver = master.lookupNode("/driver")
-simulator = master.lookupNode("/simulator")
-rospy.core.xmlrpcapi(simulator).publisherUpdate("/master", "/cmd_vel", [driver])
-"""
+INTRODUCE = solution("nodes_and_master", "introduce")
 
 REGISTER = """
 import rosgraph
@@ -75,18 +40,7 @@ rosgraph.Master("/driver").registerPublisher("/cmd_vel", "geometry_msgs/Twist", 
 master.registerSubscriber("/cmd_vel", "geometry_msgs/Twist", uri)
 """
 
-REFEREE = """
-import rosgraph
-import rospy
-
-master = rosgraph.Master("/referee")
-publishers, subscribers, services = master.getSystemState()
-for topic, nodes in publishers:
-    for name in nodes:
-        if topic == "/cmd_vel" and name != "/driver":
-            node = rospy.core.xmlrpcapi(master.lookupNode(name))
-            node.shutdown("/referee", "only one may drive")
-"""
+REFEREE = solution("nodes_and_master", "referee")
 
 
 def wrong(name: str, right: str, old: str = "", new: str = "") -> Callable[[], Script]:

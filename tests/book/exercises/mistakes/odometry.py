@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .nodes_and_master import wrong
+from .published import solution
 
 MILEAGE = """
 import math
@@ -30,36 +31,7 @@ rospy.Subscriber("sensor_state", SensorState, on_state)
 rospy.spin()
 """
 
-CALIBRATE = """
-import math
-
-import rospy
-from geometry_msgs.msg import Twist
-from nav_msgs.msg import Odometry
-from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64
-
-rospy.init_node("calibrate")
-cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
-separation = rospy.Publisher("separation", Float64, queue_size=1, latch=True)
-rospy.sleep(0.5)
-spin = Twist()
-spin.angular.z = 1.0
-for _ in range(400):
-    cmd_vel.publish(spin)
-    rospy.sleep(0.1)
-cmd_vel.publish(Twist())
-rospy.sleep(1.0)
-left, right = rospy.wait_for_message("joint_states", JointState).position
-rolled = 0.033 * (right - left)
-truth = rospy.wait_for_message("base_pose_ground_truth", Odometry)
-q = truth.pose.pose.orientation
-heading = 2 * math.atan2(q.z, q.w)
-turned = rolled / 0.160
-turned += math.remainder(heading - turned, 2 * math.pi)
-separation.publish(rolled / turned)
-rospy.spin()
-"""
+CALIBRATE = solution("odometry", "calibrate")
 
 SPIN_ON = """while not rospy.is_shutdown():
     cmd_vel.publish(spin)

@@ -3,21 +3,9 @@
 from __future__ import annotations
 
 from .nodes_and_master import wrong
+from .published import solution
 
-MAX_SPEED = """
-import rospy
-from geometry_msgs.msg import Twist
-
-def on_wish(wish):
-    wish.linear.x = max(-limit, min(limit, wish.linear.x))
-    cmd_vel.publish(wish)
-
-rospy.init_node("limiter")
-limit = rospy.get_param("~max_speed", 0.22)
-cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
-rospy.Subscriber("wish", Twist, on_wish)
-rospy.spin()
-"""
+MAX_SPEED = solution("parameter_server", "max_speed")
 
 PAUSED = """
 import rospy

@@ -7,45 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.book.checks import Script
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-HISTORY = """
-from collections import deque
-import rospy
-from std_msgs.msg import Float32
+HISTORY = solution("publish_subscribe", "history")
 
-class Newcomers(rospy.SubscribeListener):
-    def peer_subscribe(self, _topic, _publish, publish_to_peer):
-        for order in list(orders):
-            publish_to_peer(order)
-
-rospy.init_node("history")
-orders = deque(maxlen=3)
-rospy.Publisher("history", Float32, Newcomers(), queue_size=10)
-rospy.Subscriber("order", Float32, orders.append)
-rospy.spin()
-"""
-
-ALARM = """
-import rospy
-from sensor_msgs.msg import LaserScan
-from std_msgs.msg import Float32
-
-was_near = False
-
-def on_scan(scan):
-    global was_near
-    is_near = scan.ranges[0] < 1.0
-    if is_near and not was_near:
-        alarm.publish(scan.ranges[0])
-    was_near = is_near
-
-rospy.init_node("alarm")
-alarm = rospy.Publisher("alarm", Float32, queue_size=10)
-rospy.Subscriber("scan", LaserScan, on_scan)
-rospy.spin()
-"""
+ALARM = solution("publish_subscribe", "alarm")
 
 
 def wrong(name: str, right: str, old: str, new: str) -> Callable[[], Script]:

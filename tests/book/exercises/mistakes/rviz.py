@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 from rosmini.book.checks import Script
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -31,32 +33,7 @@ Visualization Manager:
     - {Class: rviz/TF, Name: Frames, Enabled: true}
 """
 
-TRAIL = """
-import rospy
-from nav_msgs.msg import Odometry
-from visualization_msgs.msg import Marker
-
-
-def begin(line):
-    line.type = Marker.LINE_STRIP
-    line.scale.x = 0.03
-    line.color.g, line.color.a = 1.0, 1.0
-    line.pose.orientation.w = 1.0
-
-
-def on_odom(odom):
-    line.header = odom.header
-    line.points.append(odom.pose.pose.position)
-    markers.publish(line)
-
-
-rospy.init_node("trail")
-line = Marker()
-begin(line)
-markers = rospy.Publisher("visualization_marker", Marker, queue_size=1)
-rospy.Subscriber("odom", Odometry, on_odom)
-rospy.spin()
-"""
+TRAIL = solution("rviz", "trail")
 
 
 def _text(right: str, old: str, new: str) -> Callable[[], str]:

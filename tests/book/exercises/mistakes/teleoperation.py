@@ -3,48 +3,11 @@
 from __future__ import annotations
 
 from .nodes_and_master import wrong
+from .published import solution
 
-JOYSTICK = """
-import rospy
-from geometry_msgs.msg import Twist
-from sensor_msgs.msg import Joy
+JOYSTICK = solution("teleoperation", "joystick")
 
-def on_joy(joy):
-    command = Twist()
-    if joy.buttons[4]:
-        command.linear.x = 0.22 * joy.axes[1]
-        command.angular.z = 2.84 * joy.axes[0]
-    cmd_vel.publish(command)
-
-rospy.init_node("joystick")
-cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
-rospy.Subscriber("joy", Joy, on_joy)
-rospy.spin()
-"""
-
-LOCK = """
-import rospy
-from geometry_msgs.msg import Twist
-from std_msgs.msg import Bool
-
-locked = False
-
-def on_stop(stop):
-    global locked
-    locked = stop.data
-    if locked:
-        cmd_vel.publish(Twist())
-
-def on_wish(command):
-    if not locked:
-        cmd_vel.publish(command)
-
-rospy.init_node("lock")
-cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
-rospy.Subscriber("stop", Bool, on_stop)
-rospy.Subscriber("wish", Twist, on_wish)
-rospy.spin()
-"""
+LOCK = solution("teleoperation", "lock")
 
 GUARD_BACK = """
 import rospy

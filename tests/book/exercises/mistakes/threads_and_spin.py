@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 from rosmini.book.checks import Script
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -42,57 +44,9 @@ while not rospy.is_shutdown():
         rospy.sleep(0.1)
 """
 
-LOAD = """
-import threading
-import rospy
-from std_msgs.msg import Float64
+LOAD = solution("threads_and_spin", "weight_on_board")
 
-load, lock = 0.0, threading.Lock()
-
-def new_load(before, change):
-    rospy.sleep(0.1)
-    return before + change
-
-def add(change):
-    global load
-    with lock:
-        load = new_load(load, change)
-        on_board.publish(load)
-
-def on_front(weight):
-    add(weight.data)
-
-def on_back(weight):
-    add(-weight.data)
-
-rospy.init_node("load")
-on_board = rospy.Publisher("load", Float64, queue_size=10)
-rospy.Subscriber("front_door", Float64, on_front)
-rospy.Subscriber("back_door", Float64, on_back)
-rospy.spin()
-"""
-
-STEADY = """
-import rospy
-from geometry_msgs.msg import Twist
-
-newest = (Twist(), 0.0)
-
-def on_wish(wish):
-    global newest
-    newest = (wish, rospy.get_time())
-
-rospy.init_node("steady")
-cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
-rospy.Subscriber("wish", Twist, on_wish, queue_size=1)
-rate = rospy.Rate(10)
-while not rospy.is_shutdown():
-    wish, time = newest
-    if rospy.get_time() - time > 2.0:
-        wish = Twist()
-    cmd_vel.publish(wish)
-    rate.sleep()
-"""
+STEADY = solution("threads_and_spin", "steady")
 
 
 def _changed(name: str, source: str, *changes: tuple[str, str]) -> Callable[[], Script]:

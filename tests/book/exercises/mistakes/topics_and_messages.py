@@ -3,85 +3,15 @@
 from __future__ import annotations
 
 from .nodes_and_master import wrong
+from .published import solution
 
-FACE = """
-import rospy
-from geometry_msgs.msg import Twist
-from sensor_msgs.msg import LaserScan
+FACE = solution("topics_and_messages", "face")
 
-def on_scan(scan):
-    command = Twist()
-    nearest = scan.ranges.index(min(scan.ranges))
-    if 10 < nearest <= 180:
-        command.angular.z = 0.3
-    elif 180 < nearest < 350:
-        command.angular.z = -0.3
-    cmd_vel.publish(command)
+FRESH = solution("topics_and_messages", "fresh")
 
-rospy.init_node("face")
-cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
-rospy.Subscriber("scan", LaserScan, on_scan, queue_size=1)
-rospy.spin()
-"""
+BLOCKED = solution("topics_and_messages", "blocked")
 
-FRESH = """
-import rospy
-from geometry_msgs.msg import Twist, TwistStamped
-
-def on_command(command):
-    age = rospy.Time.now() - command.header.stamp
-    if age > rospy.Duration(0.5):
-        cmd_vel.publish(Twist())
-    else:
-        cmd_vel.publish(command.twist)
-
-rospy.init_node("fresh")
-cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
-rospy.Subscriber("remote_vel", TwistStamped, on_command)
-rospy.spin()
-"""
-
-BLOCKED = """
-import rospy
-from sensor_msgs.msg import LaserScan
-from std_msgs.msg import Bool
-
-last = None
-
-def on_scan(scan):
-    global last
-    blocked = scan.ranges[0] < 0.5
-    if blocked != last:
-        publisher.publish(blocked)
-        last = blocked
-
-rospy.init_node("watch")
-publisher = rospy.Publisher("blocked", Bool, queue_size=1, latch=True)
-rospy.Subscriber("scan", LaserScan, on_scan, queue_size=1)
-rospy.spin()
-"""
-
-PRIORITY = """
-import rospy
-from geometry_msgs.msg import Twist
-
-last_joystick = 0.0
-
-def on_joystick(command):
-    global last_joystick
-    last_joystick = rospy.get_time()
-    cmd_vel.publish(command)
-
-def on_navigation(command):
-    if rospy.get_time() - last_joystick > 1.0:
-        cmd_vel.publish(command)
-
-rospy.init_node("priority")
-cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
-rospy.Subscriber("joy_vel", Twist, on_joystick)
-rospy.Subscriber("nav_vel", Twist, on_navigation)
-rospy.spin()
-"""
+PRIORITY = solution("topics_and_messages", "priority")
 
 
 MISTAKES = {

@@ -3,51 +3,16 @@
 from __future__ import annotations
 
 from .nodes_and_master import wrong
+from .published import solution
 
-EIGHT = """
-import math
-
-import rospy
-from geometry_msgs.msg import Twist
-
-rospy.init_node("eight")
-cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
-rospy.sleep(0.5)
-rate = rospy.Rate(10)
-command = Twist()
-command.linear.x = 0.2
-for turn in (0.5, -0.5):
-    command.angular.z = turn
-    end = rospy.get_time() + 2 * math.pi / abs(turn)
-    while rospy.get_time() < end:
-        cmd_vel.publish(command)
-        rate.sleep()
-cmd_vel.publish(Twist())
-"""
+EIGHT = solution("turtlebot3", "eight")
 
 DRIVE_ON = """while not rospy.is_shutdown():
     cmd_vel.publish(command)
     rate.sleep()
 """
 
-DOCK = """
-import rospy
-from geometry_msgs.msg import Twist
-from sensor_msgs.msg import LaserScan
-
-def on_scan(scan):
-    command = Twist()
-    distance = scan.ranges[0]
-    if not scan.range_min <= distance <= scan.range_max:
-        distance = scan.range_max
-    command.linear.x = min(0.2, 0.5 * (distance - 0.30))
-    cmd_vel.publish(command)
-
-rospy.init_node("dock")
-cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
-rospy.Subscriber("scan", LaserScan, on_scan, queue_size=1)
-rospy.spin()
-"""
+DOCK = solution("turtlebot3", "dock")
 
 FOLLOW = """
 import rospy

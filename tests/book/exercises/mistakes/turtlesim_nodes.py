@@ -6,42 +6,16 @@ from typing import TYPE_CHECKING
 
 from rosmini.book.checks import Script
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 FROG = "rosrun turtlesim turtlesim_node __ns:=/pond __name:=frog _background_r:=0"
 
-CENSUS = """
-import rosgraph
+CENSUS = solution("turtlesim_nodes", "census")
 
-master = rosgraph.Master("/census")
-publishers, subscribers, services = master.getSystemState()
-count = {}
-for _topic, nodes in publishers:
-    for name in nodes:
-        count[name] = count.get(name, 0) + 1
-for name in sorted(count):
-    if name != "/rosout":
-        print(name, count[name])
-"""
-
-GUARD = """
-import rospy
-from turtlesim.msg import Pose
-
-
-def on_pose(pose):
-    if rospy.is_shutdown():
-        return
-    if abs(pose.x - 5.5) > 2 or abs(pose.y - 5.5) > 2:
-        rospy.loginfo("the turtle has left")
-        rospy.signal_shutdown("there is nothing left to guard")
-
-
-rospy.init_node("guard")
-rospy.Subscriber("turtle1/pose", Pose, on_pose)
-rospy.spin()
-"""
+GUARD = solution("turtlesim_nodes", "go_home")
 
 
 def _command(old: str, new: str) -> Callable[[], str]:

@@ -6,42 +6,14 @@ from typing import TYPE_CHECKING
 
 from rosmini.book.checks import Script
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-TRIANGLE = """
-import rospy
-from turtlesim.srv import SetPen, TeleportAbsolute
+TRIANGLE = solution("turtlesim_topics", "triangle")
 
-rospy.init_node("triangle")
-rospy.wait_for_service("turtle1/set_pen")
-pen = rospy.ServiceProxy("turtle1/set_pen", SetPen)
-jump = rospy.ServiceProxy("turtle1/teleport_absolute", TeleportAbsolute)
-pen(255, 0, 0, 5, 1)
-jump(2, 2, 0)
-pen(255, 0, 0, 5, 0)
-for x, y in (9, 2), (5.5, 8), (2, 2):
-    jump(x, y, 0)
-"""
-
-MIRROR = """
-import rospy
-from geometry_msgs.msg import Twist
-from turtlesim.msg import Pose
-
-
-def on_pose(pose):
-    twist = Twist()
-    twist.linear.x = pose.linear_velocity
-    twist.angular.z = -pose.angular_velocity
-    commands.publish(twist)
-
-
-rospy.init_node("mirror")
-commands = rospy.Publisher("cmd_vel", Twist, queue_size=1)
-rospy.Subscriber("pose", Pose, on_pose)
-rospy.spin()
-"""
+MIRROR = solution("turtlesim_topics", "mirror")
 
 
 def _script(text: str, old: str, new: str) -> Callable[[], Script]:

@@ -6,38 +6,14 @@ from typing import TYPE_CHECKING
 
 from rosmini.book.checks import Script
 
+from .published import solution
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-GREET = """
-import rospy
-from std_msgs.msg import String
+GREET = solution("when_things_go_wrong", "greet")
 
-rospy.init_node("greeter")
-greeting = rospy.Publisher("greeting", String, queue_size=1, latch=True)
-greeting.publish("hello")
-rospy.spin()
-"""
-
-WATCHDOG = """
-import rospy
-from sensor_msgs.msg import LaserScan
-from std_msgs.msg import Bool
-
-def on_scan(scan):
-    global last
-    last = rospy.get_time()
-
-def look(event):
-    alarm.publish(rospy.get_time() - last > 1.0)
-
-rospy.init_node("watchdog")
-last = rospy.get_time()
-alarm = rospy.Publisher("alarm", Bool, queue_size=1)
-rospy.Subscriber("scan", LaserScan, on_scan)
-rospy.Timer(rospy.Duration(0.2), look)
-rospy.spin()
-"""
+WATCHDOG = solution("when_things_go_wrong", "watchdog")
 
 DOCTOR = """
 import rosgraph
