@@ -13,6 +13,8 @@ from book.tools.paper import contents, listed_pages, read_sheets
 from book.tools.pdf import document, fill_numbers, make_pdf, page_numbers
 from rosmini.tools import main
 
+from ..conftest import nightly
+
 PAGES = ("book/intro", "notebooks/2_graph/20_topics_and_messages")
 
 
@@ -43,17 +45,11 @@ def check(pdf, paper, width):
     assert pdf.count(b"/Subtype /Link") > len(list(contents(paper)))
 
 
-def test_a_chapter_is_printed_with_contents_numbers_and_outline(chromium, book_html, root, tmp_path):
+@pytest.mark.parametrize(("names", "size", "width"), [(PAGES, "letter", 612), *nightly((None, "a4", 595))])
+def test_chapters_and_the_whole_book_are_printed(chromium, book_html, root, tmp_path, names, size, width):
     listed = listed_pages(root)
-    paper = read_sheets(book_html, {name: listed[name] for name in PAGES})
-    made = make_pdf(book_html, paper, tmp_path / "book.pdf", size="letter")
-    check(made.read_bytes(), paper, 612)
-
-
-@pytest.mark.nightly
-def test_the_whole_book_is_printed(chromium, book_html, root, tmp_path):
-    paper = read_sheets(book_html, listed_pages(root))
-    check(make_pdf(book_html, paper, tmp_path / "book.pdf").read_bytes(), paper, 595)
+    paper = read_sheets(book_html, {name: listed[name] for name in names or listed})
+    check(make_pdf(book_html, paper, tmp_path / "book.pdf", size=size).read_bytes(), paper, width)
 
 
 def test_the_numbers_of_pages_stand_in_the_contents_and_behind_links_to_solutions(book_html, root):

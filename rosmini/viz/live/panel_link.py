@@ -43,6 +43,8 @@ class PanelLink(PageLink):
     def __init__(self, panel: Panel, clock: Callable[[], float] = time.monotonic) -> None:
         self.panel = panel
         self._last_sent = 0.0
+        self._number = 0
+        """That of the last operation of a control."""
         self._unseen = False
         """Whether the page has not yet answered what it was sent last."""
         self._last = panel.markup(live=True)
@@ -63,6 +65,7 @@ class PanelLink(PageLink):
 
     def _take(self, kind: str | None, content: dict[str, Any]) -> None:
         if kind == "set":
+            self._number = content.get("number", 0)
             with suppress(RosminiError):  # the panel shows what is wrong
                 self.panel.set(str(content.get("key")), content.get("value"))
         if kind == "hello":
@@ -102,7 +105,7 @@ class PanelLink(PageLink):
         html = self.panel.markup(live=True)
         news = self.panel.news(whole=not self._last)
         if html != self._last:
-            self._send({"type": "sheet", "html": html})
+            self._send({"type": "sheet", "html": html, "number": self._number})
         elif news is None and now - self._last_sent >= QUIET_S:
             self._send({"type": "alive"})
         elif news is None:

@@ -46,6 +46,7 @@ STEP = 0.2
 """Distance that an arrow key moves the pointer, in tenths of the picture's height."""
 CROSS = 8.0
 """Half the size of the cross at a pointer that keys move [px]."""
+MAGENTA = np.array([0.9, 0.0, 0.6, 1.0])
 YELLOW = np.array([1.0, 0.9, 0.2, 1.0])
 ARROWS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, -1), "ArrowDown": (0, 1)}
 WORDS = {"press": 2, "move": 2, "release": 2, "wheel": 3, "orbit": NUMBERS}
@@ -382,7 +383,7 @@ def _rectangle(first: Floats, last: Floats, projection: Projection) -> Lines:
 def _cross(pointer: Floats, projection: Projection) -> Iterator[Lines]:
     """Yield the two lines of a cross on the ground, at a pixel."""
     for along in ((CROSS, 0.0), (0.0, CROSS)):
-        yield Lines(np.array([projection.metres(*(pointer + side * np.array(along))) for side in (-1, 1)]), YELLOW)
+        yield Lines(np.array([projection.metres(*(pointer + side * np.array(along))) for side in (-1, 1)]), MAGENTA)
 
 
 def _title(name: str) -> str:

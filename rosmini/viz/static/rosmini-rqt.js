@@ -2,8 +2,8 @@
    A plain script that sets `globalThis.rosminiRqt`; `render({ model, el })` is what anywidget calls.
 
    To the kernel:   {type: "hello"} a page has opened, {type: "beat"} it is still there, {type: "start"} let the graph go on,
-                    {type: "seen"} what was sent is on the page, {type: "set", key, value} a control was operated; a pointer on a drawing is told in words, "press 10 20".
-   From the kernel: {type: "sheet", html} what the panel shows now, {type: "alive"} the same as before, {type: "refused", text},
+                    {type: "seen"} what was sent is on the page, {type: "set", key, value, number} a control was operated; a pointer on a drawing is told in words, "press 10 20".
+   From the kernel: {type: "sheet", html, number} what the panel shows after that "set", {type: "alive"} the same as before, {type: "refused", text},
                     {type: "still"} nobody drives the graph; {type: "gone", text};
                     {type: "solid", ...} with buffers, for the script rosmini-rviz.js.
 
@@ -16,9 +16,10 @@
   const PATIENCE_MS = 3000;
   const MOVE_MS = 50; // no two moves of a pointer follow one another faster
   const typed = new WeakSet(); // fields that somebody is writing into
+  const operated = new WeakMap(); // controls, with the number of the last "set"
 
   /* Make an element like another one, with as few changes as that takes. */
-  function morph(old, made) {
+  function morph(old, made, number) {
     for (const { name } of [...old.attributes]) if (!made.hasAttribute(name)) old.removeAttribute(name);
     for (const { name, value } of made.attributes) if (old.getAttribute(name) !== value) old.setAttribute(name, value);
     if (old.querySelector(":scope > .rq-solid") && made.querySelector(":scope > .rq-solid")) return; // a viewer is in it
@@ -31,16 +32,16 @@
       const present = before[i];
       if (!present) old.append(node);
       else if (present.nodeName !== node.nodeName || present.dataset?.key !== node.dataset?.key) present.replaceWith(node);
-      else if (node.nodeType === Node.ELEMENT_NODE) morph(present, node);
+      else if (node.nodeType === Node.ELEMENT_NODE) morph(present, node, number);
       else if (present.data !== node.data) present.data = node.data;
     });
     before.slice(after.length).forEach((node) => node.remove());
-    settle(old, made);
+    settle(old, made, number);
   }
 
-  /* What a control shows is no attribute of it any more once it was operated. */
-  function settle(old, made) {
-    if (!old.dataset.key || (old.matches(":focus") && typed.has(old))) return;
+  /* What a control shows is no attribute of it any more once it was operated. A key that is held down is ahead of the kernel. */
+  function settle(old, made, number) {
+    if (!old.dataset.key || (old.matches(":focus") && (typed.has(old) || operated.get(old) > number))) return;
     if (old.type === "checkbox") old.checked = made.hasAttribute("checked");
     else if (old.nodeName === "SELECT") old.value = (made.querySelector("[selected]") ?? made.options[0])?.value ?? "";
     else if (old.nodeName === "INPUT" && old.value !== made.getAttribute("value")) old.value = made.getAttribute("value");
@@ -50,7 +51,7 @@
     constructor(model, el) {
       this.model = model;
       this.heard = performance.now();
-      this.sheets = 0;
+      this.sheets = this.number = 0;
       this.host = document.createElement("div");
       this.host.innerHTML = model.get("data").html;
       this.pill = document.createElement("p");
@@ -63,7 +64,9 @@
       this.startButton = document.createElement("button");
       Object.assign(this.startButton, { type: "button", textContent: "Start the graph", hidden: true });
       this.startButton.addEventListener("click", () => this.tell({ type: "start" }));
-      el.replaceChildren(this.host, this.refusal, this.pill, this.startButton);
+      const style = document.createElement("style"); // inside, since the panel cuts off what is outside
+      style.textContent = ".rosmini-rqt .rosmini-rqt-table:focus-visible { outline-offset: -2px }";
+      el.replaceChildren(this.host, style, this.refusal, this.pill, this.startButton);
       this.note("ready");
       this.refuse("");
       this.receive = (content, buffers) => this.hear(content, buffers);
@@ -81,6 +84,7 @@
       if (!target.dataset?.key || target.nodeName === "BUTTON") return;
       typed.delete(target);
       this.set(target.dataset.key, target.type === "checkbox" ? target.checked : target.value);
+      operated.set(target, this.number);
     }
 
     click({ target }) {
@@ -142,7 +146,8 @@
 
     set(key, value) {
       this.refuse("");
-      this.tell({ type: "set", key, value });
+      this.number += 1;
+      this.tell({ type: "set", key, value, number: this.number });
     }
 
     // -- to and from the kernel ---------------------------------------------------------------------------------------
@@ -162,7 +167,9 @@
         case "sheet": {
           const made = document.createElement("div");
           made.innerHTML = content.html;
-          morph(this.host, made);
+          const at = this.controls().indexOf(document.activeElement);
+          morph(this.host, made, content.number);
+          if (at >= 0 && document.activeElement === document.body) (this.controls()[at] ?? this.controls().at(-1))?.focus();
           this.sheets += 1;
           this.note("live");
           this.seen();
@@ -191,6 +198,10 @@
     refuse(text) {
       this.refusal.textContent = text;
       this.refusal.hidden = !text;
+    }
+
+    controls() {
+      return [...this.host.querySelectorAll("[data-key], [data-points]")];
     }
 
     note(text) {

@@ -9,8 +9,6 @@ import pytest
 from rosmini import Graph
 from rosmini.msgs.geometry_msgs.msg import PointStamped, PoseStamped
 from rosmini.msgs.nav_msgs.msg import OccupancyGrid
-from rosmini.msgs.visualization_msgs.msg import InteractiveMarker, InteractiveMarkerControl
-from rosmini.ros.interactive_markers import InteractiveMarkerServer
 from rosmini.ros.launch import roslaunch
 from rosmini.viz import ViewError
 from rosmini.viz.rqt.parts import Drawing, Rows
@@ -107,28 +105,6 @@ def test_what_a_hand_takes_hold_of_follows_it_however_often_it_tells(graph, wind
     assert place(window, 1.0, 3.0) == pytest.approx(start + (100, 0), abs=0.3)
 
 
-def test_a_hand_drags_an_interactive_marker(graph, window):
-    server = InteractiveMarkerServer(graph.node("basic_controls"), "basic_controls")
-    marker = InteractiveMarker(name="box", scale=1.0)
-    marker.header.frame_id = "map"
-    marker.pose.position.x = marker.pose.position.y = 2.0
-    plane = InteractiveMarkerControl(name="plane", interaction_mode=InteractiveMarkerControl.MOVE_PLANE)
-    plane.orientation.y = plane.orientation.w = 1.0
-    marker.controls = [plane]
-    server.insert(marker)
-    server.applyChanges()
-    display = window.scene.add("InteractiveMarkers", {"Update Topic": "/basic_controls/update"})
-    graph.run(1.5)
-    window.set("view", f"press {pixel(window, 2.57, 2.0)}")
-    window.set("view", f"move {pixel(window, 1.57, 3.0)}")
-    assert display.handle("box").pose[:2, 3] == pytest.approx((1.0, 3.0), abs=0.02)
-    window.set("view", f"release {pixel(window, 1.57, 3.0)}")
-    graph.run(0.1)
-    at = server.get("box").pose.position
-    assert (at.x, at.y, at.z) == pytest.approx((1.0, 3.0, 0.0), abs=0.02)
-    assert "box: " in window.text
-
-
 def test_the_camera_follows_a_drag_and_zooms_around(graph, window):
     before = pixel(window, 2.0, 2.0)
     window.set("tool/Move Camera")
@@ -172,6 +148,13 @@ def test_what_is_no_movement_is_refused(window):
         with pytest.raises(ViewError):
             window.set("view", errors)
     window.set("view", "key F12")
+
+
+def test_keys_move_a_cross_that_the_mouse_takes_away(window):
+    window.set("view", "key ArrowRight")
+    assert len(window._tool_primitives()) == 2
+    window.set("view", "press 10 10")
+    assert window._tool_primitives() == []
 
 
 def test_a_window_takes_the_place_of_the_one_before_it_and_leaves_nothing(graph):
