@@ -143,6 +143,7 @@ def _attributes(node: Element, tag: str, names: dict[str, str]) -> Iterator[tupl
         if font := _FONT.match(given.pop("font", "")):  # matplotlib before about 3.10 writes one attribute
             given["font-size"] = font["size"]
             given |= {"font-weight": font["weight"]} if font["weight"] else {}
+            given |= {name: given.pop(name) for name in ("text-anchor", "fill") if name in given}  # the same order
     for name, value in given.items():
         if name in _DROPPED or _DEFAULTS.get(name) == value:
             continue
