@@ -8,6 +8,9 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from typing import Any
 
+COMPILES = sys.platform != "emscripten"
+"""Whether machine code is compiled when it is first needed, which takes seconds; a page of the book only loads it."""
+
 LOADING = 1_000_000
 """Estimated work of all loops of a process, in plain Python or numpy, before numba is loaded [us]."""
 
@@ -32,6 +35,8 @@ class Deferral:
 
     def due(self, work: int) -> bool:
         """Record a call that takes about `work` [us] without machine code; return whether to use machine code."""
+        if not COMPILES:
+            return True
         if not self._due and not self.held:
             self._done += work
             Deferral.total += work
@@ -52,7 +57,7 @@ def machine_code(
     `signature` receives numba and returns the signature. Raises `ImportError` without numba, and in a page of the book
     without the compiled loops.
     """
-    if sys.platform == "emscripten":
+    if not COMPILES:
         from .wasm import WasmLoop
 
         return WasmLoop(function.__name__)
@@ -73,7 +78,7 @@ def machine_code(
 
 def require() -> None:
     """Raise `ImportError` if there is no machine code here."""
-    if sys.platform == "emscripten":
+    if not COMPILES:
         from .wasm import library
 
         library()

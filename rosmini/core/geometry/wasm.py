@@ -23,10 +23,10 @@ LIBRARY = Path(__file__).with_name("kernels.wasm")
 
 @cache
 def library() -> ctypes.CDLL:
-    """Load the library. Raises `ImportError` if this book was built without it."""
+    """Load the library. Raises `ModuleNotFoundError` if this book was built without it."""
     if not LIBRARY.is_file():  # Emscripten fails only at the first attempt
         msg = f"there is no {LIBRARY}: this book was built without numba or wasm-ld"
-        raise ImportError(msg)
+        raise ModuleNotFoundError(msg)
     return ctypes.CDLL(str(LIBRARY))
 
 

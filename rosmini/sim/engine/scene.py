@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.core.geometry.machine_code import COMPILES
 from rosmini.core.geometry.poses import Pose
 from rosmini.sim.geometry.outlines import Contact
 
@@ -24,7 +25,7 @@ MARGIN = 0.5
 """Distance a body can move [m] before the fixed outlines near it are looked up again."""
 
 
-COMPILE_AFTER_BODIES = 5000
+COMPILE_AFTER_BODIES = 5000 if COMPILES else 0
 """Number of bodies processed in plain Python first; beyond it compilation of the loops pays off."""
 
 

@@ -5,6 +5,7 @@ import sys
 
 import pytest
 
+from rosmini.core.geometry import machine_code
 from rosmini.core.geometry.machine_code import Deferral, progress
 
 
@@ -16,14 +17,6 @@ class Screen(io.StringIO):
         self.isatty = lambda: terminal
 
 
-@pytest.fixture
-def start(monkeypatch):
-    """A process that has done nothing yet."""
-    monkeypatch.setattr(Deferral, "total", 0)
-    monkeypatch.setitem(sys.modules, "numba", None)
-    monkeypatch.delitem(sys.modules, "numba")
-
-
 @pytest.mark.parametrize("terminal", [True, False])
 def test_only_a_terminal_shows_progress(terminal, monkeypatch):
     screen = Screen(terminal)
@@ -31,3 +24,9 @@ def test_only_a_terminal_shows_progress(terminal, monkeypatch):
     with progress("compiling wave"):
         assert ("compiling wave" in screen.getvalue()) == terminal
     assert screen.getvalue().rpartition("\r")[2] == ""
+
+
+def test_where_nothing_is_compiled_machine_code_is_used_at_once(monkeypatch):
+    assert not Deferral().due(1)
+    monkeypatch.setattr(machine_code, "COMPILES", False)
+    assert Deferral().due(1)
