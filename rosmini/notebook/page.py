@@ -13,14 +13,16 @@ import sys
 from contextlib import suppress
 from importlib import invalidate_caches
 from importlib.abc import MetaPathFinder
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
+from IPython.core import pylabtools
 from IPython.core.displayhook import DisplayHook
 from IPython.core.displaypub import DisplayPublisher
 from IPython.core.interactiveshell import InteractiveShell
 from pyodide.ffi import JsException, run_sync
 
-from rosmini.core.graph.live import LoopDrive
+from rosmini.core.graph.notebook import Turn
 from rosmini.viz.embed import PAGE, VARIABLE
 from rosmini.viz.live.own_widget import OwnWidget
 
@@ -55,8 +57,14 @@ def start(
             raise KeyboardInterrupt from error
 
     os.environ[VARIABLE] = PAGE
+    os.environ["MPLBACKEND"] = "module://matplotlib_inline.backend_inline"
+    vars(pylabtools)["backend2gui"] = {}  # matplotlib 3.8 imports it, and IPython 9 has it no more
+    server = ModuleType("zmq")
+    vars(server).update(Context=object, start_zmq_server_as_subprocess=None)
+    sys.modules |= {"zmq": server, "meshcat.servers.zmqserver": server}  # meshcat imports them; no server starts here
     shell: Any = PageShell.instance()
     shell.history_manager.enabled = False
+    shell.turn = Turn()
     shell.send = shell.display_pub.send = shell.displayhook.send = send
     OwnWidget.post = send
     builtins.input = read_line
@@ -67,13 +75,10 @@ def start(
 def run(source: str) -> bool:
     """Run a cell; return whether it ended without an error. JavaScript calls this with ``callPromising``."""
     shell: Any = PageShell.instance()
-    while LoopDrive.is_busy:
+    while shell.turn.is_taken:
         run_sync(asyncio.sleep(0))
-    LoopDrive.is_busy = True
-    try:
+    with shell.turn:
         return bool(shell.run_cell(source, store_history=True).success)
-    finally:
-        LoopDrive.is_busy = False
 
 
 def stop() -> None:
@@ -155,6 +160,7 @@ class PageShell(InteractiveShell):
     """IPython without a terminal and without files."""
 
     send: Callable[..., None]
+    turn: Turn
     displayhook_class = PageDisplayHook
     display_pub_class = PageDisplayPublisher
 

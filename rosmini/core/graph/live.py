@@ -12,11 +12,11 @@ import signal
 import sys
 import time
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import ROSInterruptException, RosminiError
 
-from .notebook import kernel_loop, kernel_shell
+from .notebook import kernel_loop, kernel_shell, turn
 from .report import ended
 
 if TYPE_CHECKING:
@@ -50,15 +50,13 @@ STOPPED = (
 class LoopDrive(ABC):
     """Drives ``graph`` in slices in ``loop`` until :meth:`stop`, or until :meth:`is_finished` returns True."""
 
-    is_busy: ClassVar[bool] = False
-    """Whether a slice or, on a page of the book, a cell runs. Without this, promises would let one begin in another."""
-
     def __init__(self, graph: Graph, loop: asyncio.AbstractEventLoop) -> None:
         self.graph = graph
         self.running = True
         self._loop = loop
         self._noted = False
         self._kernel = kernel_shell()
+        self._turn = turn()
         loop.call_soon_threadsafe(self._step)
 
     def stop(self) -> None:
@@ -80,20 +78,14 @@ class LoopDrive(ABC):
         try:
             if self._noted:
                 raise KeyboardInterrupt  # as an interrupt during a slice would
-            if not (self.graph.scheduler.driven or LoopDrive.is_busy):
-                delay = self._slice_alone()
+            if not (self.graph.scheduler.driven or self._turn.is_taken):
+                with self._turn:
+                    delay = self._slice()
         except BaseException as error:  # there is no call at which to raise it
             self.stop()
             self._failed(error)
         if self.running:
             self._loop.call_later(delay, self._step)
-
-    def _slice_alone(self) -> float:
-        LoopDrive.is_busy = True
-        try:
-            return self._slice()
-        finally:
-            LoopDrive.is_busy = False
 
     @abstractmethod
     def _slice(self) -> float:

@@ -16,11 +16,32 @@ if TYPE_CHECKING:
 
 def kernel_shell() -> Any:
     """Return IPython's shell when this process is a Jupyter kernel, else None."""
-    if "ipykernel" not in sys.modules:
-        return None
-    get_ipython = getattr(sys.modules.get("IPython"), "get_ipython", None)
-    shell = None if get_ipython is None else get_ipython()
+    shell = _shell() if "ipykernel" in sys.modules else None
     return shell if hasattr(shell, "kernel") else None
+
+
+def _shell() -> Any:
+    get_ipython = getattr(sys.modules.get("IPython"), "get_ipython", None)
+    return None if get_ipython is None else get_ipython()
+
+
+class Turn:
+    """Taken while a cell or a slice of a live graph runs. On a page, promises would let one begin in another."""
+
+    is_taken = False
+
+    def __enter__(self) -> None:
+        """Take it."""
+        self.is_taken = True
+
+    def __exit__(self, *_: object) -> None:
+        """Give it back."""
+        self.is_taken = False
+
+
+def turn() -> Turn:
+    """Return the turn of the page of the book (`rosmini.notebook.page`), which its cells take too, or a new one."""
+    return getattr(_shell(), "turn", None) or Turn()
 
 
 def has_reader() -> bool:
