@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import sys
 from contextlib import contextmanager
 from pathlib import Path
@@ -218,6 +219,35 @@ def open_in_lab(jupyterlab):
     yield open_in_lab
     for kernel in json.loads(ask("GET", "kernels")):
         ask("DELETE", f"kernels/{kernel['id']}")
+
+
+class Lab:
+    """A page with a notebook open in JupyterLab, and its kernel idle."""
+
+    def __init__(self, page, address, cells):
+        self.page = page
+        page.goto(address)
+        self.cells = page.locator(".jp-Notebook .jp-CodeCell")
+        self.cells.nth(len(cells) - 1).wait_for()
+        page.locator("#jp-main-statusbar", has_text="| Idle").wait_for()
+
+    def run(self, number):
+        cell = self.cells.nth(number)
+        cell.locator(".jp-InputArea-editor").click()
+        self.page.keyboard.press("Control+Enter")
+        cell.locator(".jp-InputPrompt", has_text=re.compile(r"\[[*\d]+\]")).first.wait_for()
+
+    def says(self, number, text):
+        self.cells.nth(number).locator(".jp-OutputArea-output", has_text=text).first.wait_for()
+
+
+@pytest.fixture
+def open_lab(open_in_lab, chromium, shared_tmp, request):
+    """Open a notebook of the given cells; in the end there is a picture of the page."""
+    page = chromium.new_page(viewport={"width": 1280, "height": 1500})
+    yield lambda cells: Lab(page, open_in_lab(cells), cells)
+    page.screenshot(path=shared_tmp / f"{request.function.__name__}.png", full_page=True)
+    page.close()
 
 
 @pytest.fixture(scope="session")

@@ -1,7 +1,5 @@
 """A live graph in a real JupyterLab: a button that publishes, between cells and while a cell is busy."""
 
-import re
-
 import pytest
 
 pytestmark = pytest.mark.browser
@@ -40,47 +38,25 @@ button
 ]
 
 
-@pytest.fixture
-def lab(open_in_lab):
-    """The address of a JupyterLab with the cells in a notebook."""
-    return open_in_lab(CELLS)
-
-
 @pytest.mark.nightly
-def test_a_button_publishes_between_cells_and_while_a_cell_is_busy(lab, chromium, shared_tmp):
-    page = chromium.new_page(viewport={"width": 1280, "height": 1400})
-    page.goto(lab)
-    cells = page.locator(".jp-Notebook .jp-CodeCell")
-    cells.nth(len(CELLS) - 1).wait_for()
-    page.locator("#jp-main-statusbar", has_text="| Idle").wait_for()
-
-    def run(number):
-        cells.nth(number).locator(".jp-InputArea-editor").click()
-        page.keyboard.press("Control+Enter")
-        cells.nth(number).locator(".jp-InputPrompt", has_text=re.compile(r"\[[*\d]+\]")).first.wait_for()
-
-    def says(number, text):
-        cells.nth(number).locator(".jp-OutputArea-output", has_text=text).first.wait_for()
-
-    try:
-        run(0)
-        run(1)
-        button = page.locator("button.jupyter-button", has_text="Publish")
-        button.wait_for()
-        button.click()
-        says(0, "heard click 1")  # no cell runs: in the cell that called live()
-        run(2)
-        page.locator(".jp-Notebook-ExecutionIndicator[data-status='busy']").wait_for(state="attached")
-        button.click()
-        says(2, "heard click 2")  # the cell that drives
-        says(2, "driven 2")
-        run(3)
-        page.locator(".jp-Notebook-ExecutionIndicator[data-status='busy']").wait_for(state="attached")
-        button.click()  # handled in a subshell thread, while the main thread neither drives nor comes back
-        says(3, "busy 2")
-        says(0, "heard click 3")
-        run(4)
-        says(4, "in the end 3 [False, False]")
-    finally:
-        page.screenshot(path=shared_tmp / "jupyterlab.png", full_page=True)
-        page.close()
+def test_a_button_publishes_between_cells_and_while_a_cell_is_busy(open_lab):
+    lab = open_lab(CELLS)
+    page = lab.page
+    lab.run(0)
+    lab.run(1)
+    button = page.locator("button.jupyter-button", has_text="Publish")
+    button.wait_for()
+    button.click()
+    lab.says(0, "heard click 1")  # no cell runs: in the cell that called live()
+    lab.run(2)
+    page.locator(".jp-Notebook-ExecutionIndicator[data-status='busy']").wait_for(state="attached")
+    button.click()
+    lab.says(2, "heard click 2")  # the cell that drives
+    lab.says(2, "driven 2")
+    lab.run(3)
+    page.locator(".jp-Notebook-ExecutionIndicator[data-status='busy']").wait_for(state="attached")
+    button.click()  # handled in a subshell thread, while the main thread neither drives nor comes back
+    lab.says(3, "busy 2")
+    lab.says(0, "heard click 3")
+    lab.run(4)
+    lab.says(4, "in the end 3 [False, False]")

@@ -275,15 +275,10 @@ def test_keys_work_inside_the_player_and_nowhere_else(write, opened, recording):
         page.keyboard.press(key)
         painted(page)
         assert time_of(page) == pytest.approx(expected, abs=1e-3), key
-    for key, speed in [("+", "2"), ("+", "4"), ("-", "2"), *[("+", "8")] * 3, *[("-", "0.25")] * 9][:3]:
-        page.keyboard.press(key)
-        assert player.get_attribute("data-speed") == speed
-    for _ in range(9):
-        page.keyboard.press("+")
-    assert player.get_attribute("data-speed") == "8" == page.get_by_label("Speed").input_value()
-    for _ in range(9):
-        page.keyboard.press("-")
-    assert player.get_attribute("data-speed") == "0.25"
+    for keys, speed in ("+", "2"), ("+", "4"), ("-", "2"), ("+" * 9, "8"), ("-" * 9, "0.25"):
+        for key in keys:
+            page.keyboard.press(key)
+        assert player.get_attribute("data-speed") == speed == page.get_by_label("Speed").input_value()
     page.keyboard.press(" ")
     assert player.get_attribute("data-state") == "playing"
     page.keyboard.press(" ")
@@ -467,15 +462,12 @@ def test_in_print_and_without_scripts_the_still_picture_is_there(write, opened, 
 
 
 @pytest.mark.nightly
-def test_in_jupyterlab_its_keys_are_its_own(open_in_lab, chromium, shared_tmp):
+def test_in_jupyterlab_its_keys_are_its_own(open_lab):
     cells = [
         """
 from rosmini.core.graph import Graph
-from rosmini.sim.models import model
 from rosmini.sim.recorder import Recorder
-from rosmini.sim.recording import Moved
 from rosmini.sim.simulator import Simulator
-from rosmini.sim.world import Cylinder, Obstacle
 graph = Graph()
 recorder = Recorder(graph, Simulator(graph.node("simulator")))
 graph.run(5.0)
@@ -483,33 +475,24 @@ recorder.recording().replay()
 """,
         "print('below')",
     ]
-    page = chromium.new_page(viewport={"width": 1200, "height": 1200})
-    errors = []
+    lab = open_lab(cells)
+    page, errors = lab.page, []
     page.on("pageerror", lambda error: errors.append(str(error)))
-    page.goto(open_in_lab(cells))
-    found = page.locator(".jp-Notebook .jp-CodeCell")
-    found.nth(1).wait_for()
-    page.locator("#jp-main-statusbar", has_text="| Idle").wait_for()
-    found.nth(0).locator(".jp-InputArea-editor").click()
-    page.keyboard.press("Control+Enter")
-    player = found.nth(0).locator(".rosmini-replay[data-state=paused]")
+    lab.run(0)
+    player = lab.cells.nth(0).locator(".rosmini-replay[data-state=paused]")
     player.wait_for()
-    try:
-        player.get_by_role("slider", name="Time").focus()
-        for key in ("ArrowRight", "ArrowRight", "ArrowDown", "ArrowUp", "ArrowUp", "+"):
-            page.keyboard.press(key)
-        for key in ("b", "d", "d", "a"):  # JupyterLab's: they would add cells and delete this one
-            page.keyboard.press(key)
-        painted(page)
-        assert player.get_attribute("data-time") == "0.600"
-        assert player.get_attribute("data-speed") == "2"
-        assert found.count() == 2
-        page.keyboard.press(" ")
-        page.wait_for_function("document.querySelector('.rosmini-replay').dataset.time > 1")
-        assert errors == []
-    finally:
-        page.screenshot(path=shared_tmp / "screenshots" / "replay-jupyterlab.png")
-        page.close()
+    player.get_by_role("slider", name="Time").focus()
+    for key in ("ArrowRight", "ArrowRight", "ArrowDown", "ArrowUp", "ArrowUp", "+"):
+        page.keyboard.press(key)
+    for key in ("b", "d", "d", "a"):  # JupyterLab's: they would add cells and delete this one
+        page.keyboard.press(key)
+    painted(page)
+    assert player.get_attribute("data-time") == "0.600"
+    assert player.get_attribute("data-speed") == "2"
+    assert lab.cells.count() == 2
+    page.keyboard.press(" ")
+    page.wait_for_function("document.querySelector('.rosmini-replay').dataset.time > 1")
+    assert errors == []
 
 
 @pytest.mark.parametrize("width", ["phone", *nightly("desktop")])
