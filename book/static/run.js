@@ -25,7 +25,7 @@
   status.setAttribute("role", "status");
   status.textContent =
     `Runs the cells in your browser. Loads ${dataset.megabytes} MB: ` +
-    "Python and its packages from cdn.jsdelivr.net, and the library from this site. A plot loads 10 MB more.";
+    `Python and its packages from cdn.jsdelivr.net, and the library from this site. ${dataset.more}`;
   panel.append(button, status);
   document.querySelector(".bd-article h1").after(panel);
 
@@ -53,7 +53,8 @@
     const outputs = place.querySelector(".cell_output") ?? element("div", "cell_output");
     const caption = outputs.querySelector(":scope > figure");
     const editor = element("textarea", "run-editor");
-    const cell = { place, outputs, caption, editor, stored: textsOf(outputs), number: index + 1 };
+    const alt = outputs.querySelector("img")?.alt;
+    const cell = { place, outputs, caption, alt, editor, stored: textsOf(outputs), number: index + 1 };
     editor.value = code.textContent.replace(/\n$/, "");
     editor.spellcheck = false;
     editor.setAttribute("aria-label", `Code of cell ${cell.number}`);
@@ -91,7 +92,7 @@
     running = queue.shift() ?? null;
     isStopping = false;
     if (running) {
-      running.caption?.querySelector(":scope > .output")?.remove();
+      for (const old of running.caption?.querySelectorAll(":scope > :not(figcaption)") ?? []) old.remove();
       running.outputs.replaceChildren(...[running.caption].filter(Boolean));
       closePages(({ host }) => !host.isConnected);
       latest = running;
@@ -134,7 +135,7 @@
   }
 
   function add({ kind, name, text, data }) {
-    const { outputs, caption } = running ?? latest;
+    const { outputs, caption, alt } = running ?? latest;
     const last = outputs.lastElementChild;
     const className = { error: "traceback", stream: name === "stderr" ? "stderr" : "stream", data: "" }[kind];
     if (kind === "stream" && last?.classList.contains(className)) {
@@ -143,14 +144,17 @@
     }
     const output = element("div", `output ${className}`);
     const html = data?.["text/html"] ?? data?.["image/svg+xml"];
+    const image = data?.["image/png"];
     if (html) {
       fill(output, html);
+    } else if (image) {
+      output.append(Object.assign(new Image(), { src: `data:image/png;base64,${image}`, alt: alt ?? data["text/plain"] }));
     } else {
       const box = element("div", "highlight");
       box.append(element("pre", "", text ?? data["text/plain"] ?? ""));
       output.append(box);
     }
-    if (html && caption) caption.prepend(output);
+    if ((html || image) && caption) caption.lastElementChild.before(output);
     else outputs.append(output);
   }
 

@@ -1,7 +1,7 @@
 """The button *Run in this page*: the cells of a page run in the browser, and print what the book shows.
 
 ROSMINI_PYODIDE names the folder of npm's package `pyodide`: its files are sent in place of the same ones on jsDelivr.
-In the folder of Pyodide's full distribution, which has the packages, pages with numpy are run as well.
+In the folder of Pyodide's full distribution, which has the packages, pages with packages are run as well.
 """
 
 import json
@@ -25,6 +25,12 @@ FIRST = WITHOUT_NUMPY[0]
 
 MARKED_TRACEBACKS = {"notebooks/2_graph/50_parameter_server": {6}, "notebooks/5_turtlesim/30_motion_node": {4}}
 """Cells with a traceback, in which Python 3.13 marks other parts of a line than Python 3.11 does in the book."""
+
+PIXEL = (
+    "89504e470d0a1a0a0000000d49484452000000010000000108000000003a7e9b550000"
+    "000a49444154789c63f80f0001010100b138f6140000000049454e44ae426082"
+)
+"""A PNG."""
 
 FROM_CDN = {"Access-Control-Allow-Origin": "*"}
 
@@ -94,6 +100,11 @@ def served(chromium, book_html):
         context.close()
 
 
+def early(asked):
+    """What may be asked only after the button was pressed."""
+    return [url for url in asked if "worker" in url or "packages" in url or not url.startswith(SITE)]
+
+
 def press(page, name="Run in this page"):
     page.locator(".run-panel").get_by_role("button", name=name).click()
 
@@ -122,11 +133,11 @@ def running(served, pyodide):
 @pytest.mark.nightly
 @pytest.mark.parametrize("name", PAGES)
 def test_all_cells_of_a_page_print_what_the_book_shows(served, pyodide, name):
-    if PAGES[name] and not any(pyodide.glob("numpy-*.whl")):
-        pytest.skip("npm's package pyodide has no numpy")
+    if missing := [package for package in PAGES[name] if not any(pyodide.glob(f"{package}-*.whl"))]:
+        pytest.skip(f"npm's package pyodide has no {missing[0]}")
     page, asked = served(name, pyodide)
     stored = page.evaluate(TEXTS)
-    assert not [url for url in asked if "worker" in url or "packages" in url or not url.startswith(SITE)]
+    assert not early(asked)
     press(page)
     wait_for(page, "Ready.")
     press(page, "Run all")
@@ -159,6 +170,12 @@ def test_an_edited_cell_is_run_and_the_difference_is_marked(running):
     cell = last_cell(running, "print('something else')")
     cell.get_by_text("The text differs from the output that the book shows.").wait_for()
     assert "something else" in cell.locator(".stream").inner_text()
+
+
+def test_a_picture_is_shown_with_an_alternative_text(running):
+    cell = last_cell(running, f"from IPython.display import Image\nImage(bytes.fromhex('{PIXEL}'))")
+    cell.get_by_role("img", name="<IPython.core.display.Image object>").wait_for()
+    assert cell.locator("img").evaluate("image => image.decode().then(() => image.naturalWidth)") == 1
 
 
 def test_input_asks_below_the_cell(running):
@@ -238,7 +255,7 @@ def test_the_button_says_how_much_is_loaded_before_anything_is(served):
         page, asked = served(name)
         text = page.locator(".run-panel").get_by_role("status").inner_text()
         sizes[name] = int(text.partition("Loads ")[2].partition(" MB")[0])
-        assert not [url for url in asked if "worker" in url or "packages" in url or not url.startswith(SITE)]
+        assert not early(asked)
     more = PACKAGE_MB["numpy"] + PACKAGE_MB["pillow"]
     assert sizes["notebooks/1_start/10_first_steps"] - sizes[FIRST] == pytest.approx(more, abs=1)  # both are rounded
 
@@ -256,7 +273,7 @@ def test_a_browser_that_cannot_suspend_python_is_told_so(served):
     page.evaluate("delete WebAssembly.Suspending")
     press(page)
     wait_for(page, "This browser cannot suspend Python")
-    assert not [url for url in asked if "worker" in url or "packages" in url or not url.startswith(SITE)]
+    assert not early(asked)
 
 
 def test_other_pages_have_no_button(book_html):
