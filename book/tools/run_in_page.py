@@ -19,22 +19,35 @@ if TYPE_CHECKING:
 
     from sphinx.application import Sphinx
 
+PLOTS = ("numpy", "pillow", "matplotlib")
+
 PAGES = {
     "notebooks/4_files/50_catkin": (),
     "notebooks/4_files/40_from_scratch": (),
     "notebooks/1_start/10_first_steps": ("numpy", "pillow"),
     "notebooks/2_graph/10_nodes_and_master": ("numpy",),
+    "notebooks/2_graph/20_topics_and_messages": PLOTS,
     "notebooks/2_graph/30_services": ("numpy",),
     "notebooks/2_graph/40_actionlib": ("numpy",),
     "notebooks/2_graph/50_parameter_server": ("numpy",),
     "notebooks/2_graph/60_names": ("numpy",),
+    "notebooks/2_graph/65_threads_and_spin": PLOTS,
+    "notebooks/2_graph/70_bags": PLOTS,
+    "notebooks/2_graph/80_frames": PLOTS,
+    "notebooks/3_robot/10_turtlebot3": PLOTS,
+    "notebooks/3_robot/30_odometry": PLOTS,
+    "notebooks/3_robot/40_family_and_description": ("numpy", "pillow"),
+    "notebooks/4_files/10_environment": ("numpy",),
+    "notebooks/4_files/20_command_line": ("numpy",),
+    "notebooks/4_files/30_file_system": ("numpy",),
+    "notebooks/4_files/60_logging": ("numpy",),
+    "notebooks/4_files/80_launch_files": ("numpy",),
     "notebooks/5_turtlesim/10_turtlesim_nodes": ("numpy",),
     "notebooks/5_turtlesim/20_turtlesim_topics": ("numpy",),
     "notebooks/5_turtlesim/30_motion_node": ("numpy",),
     "notebooks/5_turtlesim/50_logo": ("numpy",),
-    "notebooks/4_files/30_file_system": ("numpy",),
-    "notebooks/4_files/60_logging": ("numpy",),
-    "notebooks/4_files/80_launch_files": ("numpy",),
+    "notebooks/7_navigation/10_navigation_stack": ("numpy", "pillow"),
+    "notebooks/7_navigation/20_maps": PLOTS,
     "notebooks/9_deeper/20_publish_subscribe": ("numpy",),
     "notebooks/9_deeper/30_when_things_go_wrong": ("numpy", "pillow"),
 }
@@ -43,19 +56,22 @@ PAGES = {
 CORE_MB = 5.5
 """Size of Pyodide's own files, as they are sent [MB]."""
 
-PACKAGE_MB = {"numpy": 3.6, "pillow": 1.3}
-"""Sizes of Pyodide's packages [MB]."""
+PACKAGE_MB = {"numpy": 3.6, "pillow": 1.3, "matplotlib": 10.4}
+"""Sizes of Pyodide's packages [MB]; matplotlib's with the packages that only it needs."""
 
 PURE = [
     "asttokens",
     "catkin-pkg",
+    "comm",
     "defusedxml",
     "docutils",
     "executing",
     "h11",
     "ipython",
     "ipython-pygments-lexers",
+    "ipywidgets",
     "matplotlib-inline",
+    "meshcat",
     "packaging",
     "platformdirs",
     "prompt-toolkit",
@@ -66,6 +82,7 @@ PURE = [
     "PyYAML",
     "stack-data",
     "traitlets",
+    "u-msgpack-python",
     "wcwidth",
     "xacro",
 ]
@@ -80,7 +97,7 @@ def files() -> Iterator[tuple[str, Path]]:
     folders |= {CHECKOUT / "assets" / name: f"rosmini/_assets/{name}" for name in ("core", "ros")}
     for folder, name in folders.items():
         for path in sorted(folder.rglob("*")):
-            if path.is_file() and path.suffix not in {".pyc", ".pyi"}:
+            if path.is_file() and path.suffix != ".pyi" and path.parent.name != "__pycache__":
                 yield f"{name}/{path.relative_to(folder).as_posix()}", path
     if loops := wasm.library():
         yield "rosmini/core/geometry/kernels.wasm", loops
@@ -113,12 +130,13 @@ def add_packages(app: Sphinx) -> None:
 def add_button(app: Sphinx, pagename: str, *_: Any) -> None:
     """Add the script of the button to the pages that have it."""
     if pagename in PAGES and app.builder.name == "html":
-        size = (
-            CORE_MB
-            + sum(PACKAGE_MB[name] for name in PAGES[pagename])
-            + Path(app.outdir, "_static", "packages.zip").stat().st_size / 1e6
-        )
-        attributes: dict[str, Any] = {"data-megabytes": f"{size:.0f}"}
+        archive = Path(app.outdir, "_static", "packages.zip")
+        more = sum(size for name, size in PACKAGE_MB.items() if name not in PAGES[pagename])
+        size = CORE_MB + archive.stat().st_size / 1e6 + sum(PACKAGE_MB.values()) - more
+        attributes: dict[str, Any] = {
+            "data-megabytes": f"{size:.0f}",
+            "data-more": f"A plot loads {more:.0f} MB more." if more else "",
+        }
         app.add_js_file("run.js", loading_method="defer", **attributes)
 
 
