@@ -288,10 +288,10 @@ INTRODUCTION = """# Localisation and mapping in figures
 
 How well do amcl, gmapping and hector_mapping know where the robot is? A driver node that knows the true pose drives a
 Burger through the simulator's worlds at 0.2 m/s, with turns on the spot. The laser measures while the robot moves, and
-the wheels slip. The runs in a row differ only in their seeds. Each cell shows the median over the runs, and in brackets
-the worst run; each chart shows a small point for each run, and a large one for the median. Each run is stored in
-`assets/benchmarks/localization.json`, with the commit that produced it. Chapters that quote a number link to its row
-here. To run more drives:
+the wheels slip. The runs behind a row of a table differ only in their seeds. Each cell shows the median over the runs,
+and in brackets the worst run; each chart shows a small point for each run, and a large one for the median. Each run is
+stored in `assets/benchmarks/localization.json`, with the commit that produced it. Chapters that quote a number link to
+its row here. To run more drives:
 `PYTHONPATH=tests/benchmarks uv run python -m rosmini_bench.nav_located lost house --seeds 11 20`.
 """
 
@@ -353,13 +353,13 @@ the few random particles near the true pose win.
 odometry. Errors above 0.5 m are drawn at the right edge
 ```
 
-Errors are distances from the true path, with both paths aligned at the start. *Revisits* are pairs of scans more than
-60 scans apart and less than a metre from each other; *precision* and *recall* are those of occupied cells, with a
-tolerance of two cells. `log_house` is a recorded drive on which we also ran the original gmapping: with its default
-parameters its error was 0.105 m, and 0.036 m at revisits, with a precision of 0.80 and a recall of 0.73. *csail* is a
-log of a real robot, for which the path that the original found is taken as the truth; the error of the original is
-0.046 m between neighbours and 0.070 m at revisits. Rows marked *ours* use a scan every 0.2 m or 0.25 rad, and
-beams up to 3 m.
+Errors are distances from the true path, with both paths aligned at the start. *Neighbours* are pairs of consecutive
+scans; *revisits* are pairs of scans more than 60 scans apart and less than a metre from each other; *precision* and
+*recall* are those of occupied cells, with a tolerance of two cells. `log_house` is a recorded drive on which we also
+ran the original gmapping: with its default parameters its error was 0.105 m, and 0.036 m at revisits, with a precision
+of 0.80 and a recall of 0.73. *csail* is a log of a real robot, for which the path that the original found is taken as
+the truth; the error of the original is 0.046 m between neighbours and 0.070 m at revisits. Rows marked *ours* use a
+scan every 0.2 m or 0.25 rad, and beams up to 3 m.
 
 In rosmini the end of a beam counts only if the cell before it is free. The original is meant to check this, but looks
 up the wrong cell, so it counts every end. With the check, the result for csail is a little worse, but maps of the house
@@ -373,11 +373,11 @@ the recall is low for any mapper.
 
 Errors are root mean squares over drives of 120 s in the house. Rows differ in how fast the robot turns, and in whether
 the laser sweeps, that is, measures its beams one after another. In `log_house` the robot turns at 1.2 rad/s: without
-odometry hector_mapping loses it, and so does the original, because its matcher cannot correct a scan that is turned by
-14 degrees. With odometry as the initial estimate, the original is off by 0.021 m.
+odometry hector_mapping loses track of it, and so does the original, because its matcher cannot correct a scan that is
+turned by 14 degrees. With odometry as the initial estimate, the original is off by 0.021 m.
 
 The robot waits for a second before it drives off, except in rows marked *off at once*. In those rows, the first scan
-may be taken during a turn, and the sweep distorts it; this rotates the whole map, and the path with it.
+may be taken during a turn, and a sweep then distorts it; this rotates the whole map, and the path with it.
 """,
     }
 )

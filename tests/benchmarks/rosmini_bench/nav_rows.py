@@ -188,11 +188,11 @@ def _failure(setup: Setup, one: Outcome) -> str:
 
 INTRODUCTION = f"""# Navigation in figures
 
-How often does this book's Navigation Stack bring a robot to its goal? These charts and tables summarise
-{{}} drives in the simulator's worlds. Each drive is stored in `assets/benchmarks/navigation.jsonl`, with its seed
-and the commit that produced it. Chapters that quote a number link to its row here. A later commit may round the last
-digit of a computation differently. A drive with the same seed then takes a different course after some time, so to
-check a figure, repeat many drives, not one.
+How often does this book's Navigation Stack bring a robot to its goal? These charts and tables summarise {{}} drives in
+the simulator's worlds. Each drive is stored in `assets/benchmarks/navigation.jsonl`, with its seed and the commit that
+produced it. Chapters that quote a number link to its row here. After a later commit, the last digit of a computation
+may be rounded differently. A drive with the same seed then takes a different course after some time, so to check a
+figure, repeat many drives, not one.
 
 ## Goals in the house, the maze and the office
 
