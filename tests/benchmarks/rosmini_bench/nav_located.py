@@ -341,9 +341,9 @@ look the same from either end.
 
 After {CARRIED:.0f} s the robot is carried elsewhere, which its odometry does not notice. The parameters are the same
 as above. amcl adds random particles while the fast average of the likelihood is below the slow average, and resets both
-averages after a resampling step that added some. With a narrow bell curve the likelihood differs by powers of ten from
-scan to scan, so random particles are added only a few times in two minutes. With a wide bell curve it differs less, and
-the few random particles near the true pose win.
+averages after a resampling step in which it added any. With a narrow bell curve the likelihood differs by powers of ten
+from scan to scan, so random particles are added only a few times in two minutes. With a wide bell curve it differs
+less, and the few random particles near the true pose win.
 """,
         "gmapping": """
 ## gmapping
