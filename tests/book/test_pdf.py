@@ -49,7 +49,9 @@ def check(pdf, paper, width):
 def test_chapters_and_the_whole_book_are_printed(chromium, book_html, root, tmp_path, names, size, width):
     listed = listed_pages(root)
     paper = read_sheets(book_html, {name: listed[name] for name in names or listed})
-    check(make_pdf(book_html, paper, tmp_path / "book.pdf", size=size).read_bytes(), paper, width)
+    pdf = make_pdf(book_html, paper, tmp_path / "book.pdf", size=size).read_bytes()
+    check(pdf, paper, width)
+    assert names is None or page_numbers(pdf)["c0"] == 3  # after the cover and a page of contents
 
 
 def test_the_numbers_of_pages_stand_in_the_contents_and_behind_links_to_solutions(book_html, root):
