@@ -142,13 +142,13 @@
       last.querySelector("pre").append(text);
       return;
     }
-    const output = element("div", `output ${className}`);
     const html = data?.["text/html"] ?? data?.["image/svg+xml"];
-    const image = data?.["image/png"];
+    const image = html ? undefined : data?.["image/png"];
+    const output = image ? new Image() : element("div", `output ${className}`);
     if (html) {
       fill(output, html);
     } else if (image) {
-      output.append(Object.assign(new Image(), { src: `data:image/png;base64,${image}`, alt: alt ?? data["text/plain"] }));
+      Object.assign(output, { src: `data:image/png;base64,${image}`, alt: alt ?? data["text/plain"] });
     } else {
       const box = element("div", "highlight");
       box.append(element("pre", "", text ?? data["text/plain"] ?? ""));

@@ -23,8 +23,13 @@ CDN, PACKAGES = ASKS["run-worker.js"]
 WITHOUT_NUMPY = [name for name, packages in PAGES.items() if not packages]
 FIRST = WITHOUT_NUMPY[0]
 
-MARKED_TRACEBACKS = {"notebooks/2_graph/50_parameter_server": {6}, "notebooks/5_turtlesim/30_motion_node": {4}}
-"""Cells with a traceback, in which Python 3.13 marks other parts of a line than Python 3.11 does in the book."""
+DIFFERENT = {
+    "notebooks/2_graph/50_parameter_server": {6},
+    "notebooks/5_turtlesim/30_motion_node": {4},
+    "notebooks/7_navigation/80_hector_mapping": {23},
+}
+"""Cells whose text differs: Python 3.13 marks other parts of a line in a traceback than the book's Python 3.11, and
+rounding decides where a mapper in a bare corridor believes it is."""
 
 PIXEL = (
     "89504e470d0a1a0a0000000d49484452000000010000000108000000003a7e9b550000"
@@ -145,7 +150,7 @@ def test_all_cells_of_a_page_print_what_the_book_shows(served, pyodide, name):
     numbers = range(1, len(stored) + 1)
     shown = zip(numbers, stored, page.evaluate(TEXTS), strict=True)
     marked = {number for number in numbers if page.locator(f".cell >> nth={number - 1} >> .run-differs").count()}
-    assert {number for number, old, new in shown if old != new} == MARKED_TRACEBACKS.get(name, set()) == marked
+    assert {number for number, old, new in shown if old != new} == DIFFERENT.get(name, set()) == marked
     assert {url for url in asked if not url.startswith((SITE, CDN))} == {
         url for url in asked if url.startswith("blob:" + SITE)
     }
