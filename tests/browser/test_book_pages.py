@@ -19,12 +19,12 @@ SETTLES = """() => new Promise((settled) => {
   const look = () => {
     document.getAnimations().forEach((each) => each instanceof CSSTransition && each.finish());
     const areReached = [...document.querySelectorAll(".bd-article :is(pre, .pst-scrollable-table-container)")]
-      .every((each) => each.tabIndex === 0 || each.scrollWidth <= each.clientWidth);
+      .every((each) => (each.tabIndex === 0) === (each.scrollWidth > each.clientWidth));
     if (areReached || performance.now() > end) settled(); else setTimeout(look, 50);
   };
   look();
 })"""
-"""Give the colours of a scheme, and wait until the keyboard reaches all that scrolls; if it never does, axe says so.
+"""Give the colours of a scheme, and wait until the keyboard reaches what scrolls, only; if it never does, axe says so.
 
 The theme sees to the latter 300 ms after the window has changed.
 """
