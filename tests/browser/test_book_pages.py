@@ -11,6 +11,7 @@ pytestmark = pytest.mark.browser
 IS_SHOT = os.environ.get("ROSMINI_SCREENSHOTS") == "1"
 """Whether pictures of the whole pages are wanted, to be looked at: they take longer than all the rest."""
 
+PARTS = [f"notebooks/{part}_*/*.html" for part in range(1, 10)]
 WIDTHS = {"desktop": (1280, 900), "phone": (390, 844)}
 SIDEWAYS = "document.documentElement.scrollWidth - document.documentElement.clientWidth"
 
@@ -53,7 +54,7 @@ def violations_of(page):
 LOOKS = (("light", "desktop"), ("dark", "phone"))
 
 
-@pytest.mark.parametrize("which", ["notebooks/*/10_turtlebot3.html", *nightly("**/*.html")])
+@pytest.mark.parametrize("which", ["notebooks/*/10_turtlebot3.html", *nightly("*.html", "book/**/*.html", *PARTS)])
 def test_each_page_opens_with_an_empty_console(book_html, chromium, watch, shared_tmp, which):
     """A page is seen in both schemes and both widths, and axe finds nothing that hinders a reader.
 
