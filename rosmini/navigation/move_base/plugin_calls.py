@@ -89,7 +89,8 @@ def _run_in_lane(node: Node, what: str, task: Callable[[], Any], budget: float) 
 class LoopWatch:
     """Counts loop iterations outside rosmini and installed packages, and raises `PluginFault` after `limit` of them.
 
-    It uses Python's trace function, so it does nothing while a debugger or a coverage tool is using that.
+    It uses Python's trace function, so it does nothing while a debugger or a coverage tool is using that, nor on
+    Emscripten: Pyodide crashes where a traced stack is suspended.
     """
 
     def __init__(self, what: str, limit: int) -> None:
@@ -98,7 +99,7 @@ class LoopWatch:
 
     def start(self) -> None:
         """Start counting in this thread, unless it is already being traced."""
-        if sys.gettrace() is None:
+        if sys.platform != "emscripten" and sys.gettrace() is None:
             sys.settrace(self)
 
     def stop(self) -> None:
