@@ -304,7 +304,8 @@ WORDS: MappingProxyType[str, str] = MappingProxyType(
 <a id="chart-following"></a>Figure 1: The mean error of amcl on each drive. The pose is known at the start
 ```
 
-The first pose is within 0.1 m and 6 degrees of the truth, and the parameters are those of `turtlebot3_navigation`.
+The initial pose given to amcl is within 0.1 m and 6 degrees of the truth, and the parameters are those of
+`turtlebot3_navigation`.
 *Off* is the mean error, *turning* the mean error during turns, and *95th* the 95th percentile.
 *People*: three people walk beside the robot and block about every fifth beam. *In the ellipse*: how often the true pose
 was inside the 95% ellipse of the published covariance. The map does not show crates that can be pushed; the driver
