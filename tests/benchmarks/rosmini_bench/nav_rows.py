@@ -237,7 +237,7 @@ CYLINDERS = """## Between cylinders that are not on the map
 <a id="chart-gaps"></a>Figure 2: Goals reached between cylinders, by the width of the gaps
 ```
 
-The unit for the gaps is the width of the Burger, 0.21 m. The planner learns about a
+The gaps are measured in widths of the Burger, 0.21 m. The planner learns about a
 cylinder only when the laser sees it. In front of narrow gaps the robot gives up without touching anything.
 """
 
@@ -250,8 +250,8 @@ run, a large one for the median
 
 Both explorers use gmapping with its default of 30 particles, and `careful:=true`. We let explore_lite give up a
 frontier only after 120 s without progress, because in the house a frontier may be close in a straight line but a long
-drive away. *Seen* is the proportion of the reachable cells that are known in the final map: the median, and in brackets
-the lowest. *Saw all* counts the runs that saw {good} or more.
+drive away. *Seen* is the proportion of the reachable cells that are known in the final map; the table shows the median
+and, in brackets, the lowest. *Saw all* counts the runs that saw {good} or more.
 
 In the house and the maze {full} runs saw {good} or more, and {ended} ended by themselves.
 
