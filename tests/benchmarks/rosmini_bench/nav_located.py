@@ -307,9 +307,9 @@ WORDS: MappingProxyType[str, str] = MappingProxyType(
 The initial pose given to amcl is within 0.1 m and 6 degrees of the truth, and the parameters are those of
 `turtlebot3_navigation`.
 *Off* is the mean error, *turning* the mean error during turns, and *95th* the 95th percentile.
-*People*: three people walk beside the robot and block about every fifth beam. *In the ellipse*: how often the true pose
-was inside the 95% ellipse of the published covariance. The map does not show crates that can be pushed; the driver
-steers around them.
+In rows marked *people*, three people walk beside the robot and block about every fifth beam. *In the ellipse* is the
+proportion of estimates for which the true pose was inside the 95% ellipse of the published covariance. The map does not
+show crates that can be pushed; the driver steers around them.
 """,
         "lost": f"""
 ## amcl: a robot that may be anywhere

@@ -147,7 +147,7 @@ def _together(goals: Rows) -> Iterator[str]:
             low, high = wilson(reached, count)
             yield (
                 f"- In all three worlds, with {localization} and seed {seed}, {reached} of {count} goals were reached "
-                f"({reached / count:.1%}; 95% interval {low:.1%} to {high:.1%}), with contacts in "
+                f"({reached / count:.1%}; 95% interval {low:.1%} to {high:.1%}); contacts occurred in "
                 f"{sum(one.contacts for one in found)} drives."
             )
 
@@ -237,8 +237,8 @@ CYLINDERS = """## Between cylinders that are not on the map
 <a id="chart-gaps"></a>Figure 2: Goals reached between cylinders, by the width of the gaps
 ```
 
-The gaps are measured in widths of the Burger, 0.21 m. The planner learns about a
-cylinder only when the laser sees it. In front of narrow gaps the robot gives up without touching anything.
+The width of a gap is given in widths of the Burger, which is 0.21 m wide. The planner learns about a cylinder only
+when the laser sees it. In front of narrow gaps the robot gives up without touching anything.
 """
 
 EXPLORING = """## Exploring
@@ -282,27 +282,27 @@ FAILURES = """## Each failure with the careful files
 
 CAUSES = """## Where it fails, and why
 
-We looked at each failure with seed 7: the costmaps, the plan, and why the local planner rejected each velocity. The
-chapter {doc}`../../notebooks/7_navigation/95_tune_and_fix` shows how to find and fix such faults. These are the causes,
-and what `careful.yaml` changes:
+For each failure with seed 7, we looked at the costmaps, the plan, and the reasons why the local planner rejected each
+velocity. The chapter {doc}`../../notebooks/7_navigation/95_tune_and_fix` shows how to find and fix such faults. These
+are the causes, and what `careful.yaml` changes:
 
 - **Footprint.** The origin of a Burger is near its front, so the inscribed radius of its footprint is only 5 cm.
   A global plan keeps only this distance from obstacles, and leads through places too narrow for the robot, such as
   the space between the legs of a chair. The local planner checks the whole footprint and refuses to drive there.
   `careful.yaml` treats the robot as a disc.
 - **No way back.** A robot whose front is 3 cm from an obstacle can neither drive forward nor turn. `careful.yaml`
-  allows -0.1 m/s, as ROBOTIS's files do.
+  lets it reverse at up to 0.1 m/s, as ROBOTIS's files do.
 - **People.** People came so close that their cells in the costmap overlapped the footprint. Then they waited for
   the robot, which could not leave. In the simulator they now keep 0.3 m away, and turn back after 5 s.
 - **Local costmap.** The local planner is drawn to the point where the plan leaves the local costmap. In a window of 3 m
   that point could lie behind a wall that the plan goes around, and then the robot turned on the spot. `careful.yaml`
-  uses 2 m.
+  uses a window of 2 m.
 - **Ghosts.** A beam that hits nothing clears nothing unless `inf_is_valid` is set, so people leave a trail of obstacles
   in wide rooms. `careful.yaml` sets it.
 - **Doors.** The costmap keeps the earlier positions of a door that was seen while it opened. With `careful.yaml`,
   `move_base` plans for 10 s between two recoveries, rotates only once, and clears the costmap more often.
 - **Cells.** In a costmap with cells of 5 cm, an outline may be 5 cm too wide. Noise then marks a cell under the robot,
-  and every way out is rejected. `careful.yaml` uses 2.5 cm in the local costmap.
+  and every way out is rejected. `careful.yaml` uses cells of 2.5 cm in the local costmap.
 - **First pose.** The first pose that `amcl` is given is right to within about 0.5 m. At the entrance of the house the
   scan fits nearly as well 0.8 m further on, and the published mean lies between the two poses.
 - **Frontiers.** explore_lite measures progress in a straight line, so it gives up a frontier while the robot is driving
