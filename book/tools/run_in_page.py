@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 PLOTS = ("numpy", "pillow", "matplotlib")
 
 PAGES = {
-    "notebooks/4_files/50_catkin": (),
-    "notebooks/4_files/40_from_scratch": (),
     "notebooks/1_start/10_first_steps": ("numpy", "pillow"),
     "notebooks/2_graph/10_nodes_and_master": ("numpy",),
     "notebooks/2_graph/20_topics_and_messages": PLOTS,
@@ -41,6 +39,8 @@ PAGES = {
     "notebooks/4_files/10_environment": ("numpy",),
     "notebooks/4_files/20_command_line": ("numpy",),
     "notebooks/4_files/30_file_system": ("numpy",),
+    "notebooks/4_files/40_from_scratch": (),
+    "notebooks/4_files/50_catkin": (),
     "notebooks/4_files/60_logging": ("numpy",),
     "notebooks/4_files/70_dynamic_reconfigure": PLOTS,
     "notebooks/4_files/80_launch_files": ("numpy",),
@@ -61,12 +61,17 @@ PAGES = {
     "notebooks/7_navigation/60_amcl": PLOTS,
     "notebooks/7_navigation/70_gmapping": PLOTS,
     "notebooks/7_navigation/80_hector_mapping": PLOTS,
+    "notebooks/7_navigation/90_move_base": PLOTS,
     "notebooks/7_navigation/95_tune_and_fix": ("numpy", "pillow"),
     "notebooks/8_use_cases/10_navigation_goal": PLOTS,
     "notebooks/8_use_cases/20_frontier_exploration": PLOTS,
     "notebooks/8_use_cases/30_explore_lite": ("numpy", "pillow"),
+    "notebooks/8_use_cases/40_many_turtlebots": PLOTS,
+    "notebooks/8_use_cases/50_beyond": ("numpy", "pillow"),
+    "notebooks/8_use_cases/60_project": ("numpy", "pillow"),
     "notebooks/9_deeper/20_publish_subscribe": ("numpy",),
     "notebooks/9_deeper/30_when_things_go_wrong": ("numpy", "pillow"),
+    "notebooks/9_deeper/40_how_it_works": PLOTS,
 }
 """The pages whose cells run in the browser, and the packages of Pyodide that they import."""
 
