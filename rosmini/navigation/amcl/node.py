@@ -421,9 +421,9 @@ class Amcl:
 
 
 def cloud(particles: NDArray[np.float64], frame: str, stamp: Time) -> Any:
-    """Return particles (n, 3) in `frame` as a `geometry_msgs/PoseArray`."""
+    """Return particles (n, 3) in `frame` as a `geometry_msgs/PoseArray` that shares nothing with other messages."""
     message = message_class("geometry_msgs/PoseArray")()
-    message.header.frame_id, message.header.stamp = frame, stamp
+    message.header.frame_id, message.header.stamp = frame, Time(stamp.secs, stamp.nsecs)
     message.poses = [_POSE(x, y, math.sin(yaw / 2), math.cos(yaw / 2)) for x, y, yaw in particles.tolist()]
     return message
 
