@@ -7,6 +7,7 @@ have their boundaries elsewhere, where values fall only by chance.
 
 from __future__ import annotations
 
+import math
 from decimal import ROUND_HALF_UP, Decimal
 from typing import TYPE_CHECKING
 
@@ -36,7 +37,7 @@ def degrees(angle: float, digits: int = 1) -> str:
     >>> degrees(-3.141592653589793), degrees(7.0, 0)
     ('180.0', '41')
     """
-    text = fixed(np.rad2deg(angle) % 360.0, digits)
+    text = fixed(math.degrees(angle) % 360.0, digits)
     return text if float(text) <= 180 else fixed(float(text) - 360.0, digits)
 
 

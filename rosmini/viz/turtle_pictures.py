@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 
-import numpy as np
-
+from rosmini.core.lazy import np
 from rosmini.sim.turtlesim.drawings import DRAWINGS
 from rosmini.sim.turtlesim.frame import Frame
 from rosmini.sim.turtlesim.paper import SIZE, Colour, Pen, Stroke
@@ -99,7 +99,7 @@ def _turtle(turtle: Turtle) -> str:
     x, y = turtle.pixel
     drawing = DRAWINGS[turtle.kind % len(DRAWINGS)]
     parts = "".join(element("path", d=path, fill=colour) for path, colour in drawing.parts)
-    turned = fixed(-float(np.rad2deg(turtle.theta)), 1)
+    turned = fixed(-math.degrees(turtle.theta), 1)
     return element("g", parts, transform=f"translate({number(x)},{number(y)}) rotate({turned})")
 
 

@@ -1,4 +1,4 @@
-"""The graph, its commands and Logo work where numpy and the other large packages are absent."""
+"""The graph, its commands, turtlesim and Logo work where numpy and the other large packages are absent."""
 
 import sys
 
@@ -37,6 +37,11 @@ rospy.spin()
     "%rosnode info /listener",
     "%rostopic echo -n 1 /chatter",
     "%rosnode kill talker",
+    "%rosrun turtlesim turtlesim_node",
+    "%rosservice call /turtle1/teleport_relative 2.0 0.0",
+    "%rosservice call /spawn 1.0 2.0 0.0 leo",
+    "%rostopic echo -n 1 /turtle1/color_sensor",
+    "%rosnode kill turtlesim",
     "from rosmini.sim.logo import Logo\nLogo().run('repeat 4 [forward 50 right 90]  print pos')",
 ]
 
@@ -57,9 +62,10 @@ print("finished")
 """
 
 
-def test_nodes_commands_and_logo_need_no_numpy(tmp_path):
+def test_nodes_commands_turtlesim_and_logo_need_no_numpy(tmp_path):
     done = run([sys.executable, "-c", SCRIPT], cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     assert "heard hello" in done.stdout
     assert "success: True" in done.stdout
+    assert "r: 179\ng: 184\nb: 255" in done.stdout
     assert "finished" in done.stdout

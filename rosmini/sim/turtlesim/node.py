@@ -8,6 +8,7 @@ Requests that change the drawing or a pose (pens, teleports, `clear`) are answer
 
 from __future__ import annotations
 
+import random
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -66,8 +67,8 @@ class TurtleSim:
     def __init__(self, node: Node) -> None:
         self.node = node
         self.parameters = TurtleSimParameters.read(node)
-        rng = node.graph.rng(f"{node.name}/turtles")
-        self.frame = Frame(self.parameters.background, lambda: int(rng.integers(len(DRAWINGS))))
+        rng = random.Random(f"{node.graph.seed}{node.name}/turtles")  # noqa: S311 - the graph's needs numpy
+        self.frame = Frame(self.parameters.background, lambda: int(rng.random() * len(DRAWINGS)))
         self._interfaces: dict[str, TurtleInterface] = {}
         self._tapes: list[Tape] = []
         self._requests: list[tuple[Callable[[], object], Waiter]] = []

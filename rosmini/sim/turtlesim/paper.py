@@ -12,12 +12,7 @@ import math
 from array import array
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
-
-from rosmini.core.lazy import np
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from typing import NamedTuple
 
 SIZE = 500
 """The width and the height of the window [px]."""
@@ -74,7 +69,7 @@ class Paper:
         self._pens: dict[tuple[Pen, str], int] = {}
         self._first = 0
         self._painted = 0
-        self._image: NDArray[np.uint8] | None = None
+        self._image: bytearray | None = None
 
     def clear(self, background: Colour | None = None) -> None:
         """Clear the paper, with this background or the same one as before."""
@@ -111,27 +106,27 @@ class Paper:
 
     def pixel(self, x: float, y: float) -> Colour:
         """Return the colour at a point [px]; for a point outside, that of the nearest pixel."""
-        image = self._painted_image()
         column, row = (min(max(math.floor(each + 0.5), 0), SIZE - 1) for each in (x, y))
-        red, green, blue = image[row, column]
-        return int(red), int(green), int(blue)
+        place = 3 * (SIZE * row + column)
+        red, green, blue = self._painted_image()[place : place + 3]
+        return red, green, blue
 
-    def image(self) -> NDArray[np.uint8]:
-        """Return the whole drawing, (row, column, 3), from the top left."""
-        return self._painted_image().copy()
+    def image(self) -> bytes:
+        """Return the whole drawing: red, green and blue of each pixel, row by row from the top left."""
+        return bytes(self._painted_image())
 
-    def _painted_image(self) -> NDArray[np.uint8]:
+    def _painted_image(self) -> bytearray:
         """Return the image after painting the strokes that are not in it yet; called only when the image is needed."""
         image = self._image
         if image is None:
-            image = self._image = np.full((SIZE, SIZE, 3), self.background, dtype=np.uint8)
+            image = self._image = bytearray(self.background) * SIZE**2
         for stroke in self.strokes(self._painted):
             _paint(image, stroke)
         self._painted = self.count
         return image
 
 
-def _paint(image: NDArray[np.uint8], stroke: Stroke) -> None:
+def _paint(image: bytearray, stroke: Stroke) -> None:
     x, y, end_x, end_y, pen, _ = stroke
     if max(abs(x), abs(y)) > max(abs(end_x), abs(end_y)):  # measure from the end nearer to the image
         x, y, end_x, end_y = end_x, end_y, x, y
@@ -142,16 +137,34 @@ def _paint(image: NDArray[np.uint8], stroke: Stroke) -> None:
     along_x, along_y = ((end_x - x) / length, (end_y - y) / length) if length else (1.0, 0.0)
     half = pen.width / 2
     left, right = _span(x, end_x, half)
-    top, bottom = _span(y, end_y, half)
-    if left >= right or top >= bottom:
-        return
-    dx, dy = np.arange(left, right) + (CENTRE - x), (np.arange(top, bottom) + (CENTRE - y))[:, None]
-    along, across = dx * along_x + dy * along_y, dy * along_x - dx * along_y
-    inside = (along >= -half) & (along < length + half) & (across >= -half) & (across < half)
-    image[top:bottom, left:right][inside] = pen.colour
+    for row in range(*_span(y, end_y, half)):
+        dy = row + (CENTRE - y)
+        # A row's painted pixels are one run. This finds it to a pixel, and the test of each pixel decides.
+        ranges = (
+            _solutions(along_x, -half - dy * along_y, length + half - dy * along_y),
+            _solutions(-along_y, -half - dy * along_x, half - dy * along_x),
+        )
+        first = max(left, math.floor(max(low for low, _ in ranges) - (CENTRE - x)) - 1)
+        last = min(right, math.ceil(min(high for _, high in ranges) - (CENTRE - x)) + 2)
+        inside = [
+            column
+            for column, dx in ((column, column + (CENTRE - x)) for column in range(first, last))
+            if -half <= dx * along_x + dy * along_y < length + half and -half <= dy * along_x - dx * along_y < half
+        ]
+        if inside:
+            begin, end = SIZE * row + inside[0], SIZE * row + inside[-1] + 1
+            image[3 * begin : 3 * end] = bytes(pen.colour) * (end - begin)
 
 
-def _paint_thin(image: NDArray[np.uint8], start: tuple[float, float], end: tuple[float, float], colour: Colour) -> None:
+def _solutions(slope: float, low: float, high: float) -> tuple[float, float]:
+    """Return the range of x for which `slope * x` is from `low` to `high`, cut to twice the size of the image."""
+    if abs(slope) < 1e-9:
+        return -2.0 * SIZE, 2.0 * SIZE
+    first, second = sorted((low / slope, high / slope))
+    return max(first, -2.0 * SIZE), min(second, 2.0 * SIZE)
+
+
+def _paint_thin(image: bytearray, start: tuple[float, float], end: tuple[float, float], colour: Colour) -> None:
     """Paint a line of one pixel: one pixel for each column, or for each row if it is steep."""
     # Qt rounds to a 64th of a pixel
     start, end = ((math.trunc(x * 64) / 64, math.trunc(y * 64) / 64) for x, y in (start, end))
@@ -159,11 +172,11 @@ def _paint_thin(image: NDArray[np.uint8], start: tuple[float, float], end: tuple
     (u, v), (end_u, end_v) = sorted((start[::-1], end[::-1]) if steep else (start, end))
     slope = (end_v - v) / (end_u - u) if end_u > u else 0.0
     first, last = (math.floor(min(max(each, -1.0), float(SIZE))) for each in (u, end_u))
-    steps = np.arange(max(first, 0), min(last + 1, SIZE))
-    across = np.floor(v + (steps + (0.5 if slope > 0 else 0.0) - u) * slope)
-    inside = (across >= 0) & (across < SIZE)
-    columns, rows = steps[inside], across[inside].astype(np.intp)
-    image[(columns, rows) if steep else (rows, columns)] = colour
+    for step in range(max(first, 0), min(last + 1, SIZE)):
+        across = math.floor(v + (step + (0.5 if slope > 0 else 0.0) - u) * slope)
+        if 0 <= across < SIZE:
+            place = 3 * (SIZE * step + across if steep else SIZE * across + step)
+            image[place : place + 3] = bytes(colour)
 
 
 def _span(first: float, second: float, half: float) -> tuple[int, int]:
