@@ -18,10 +18,11 @@ from __future__ import annotations
 
 from contextlib import suppress
 from importlib import import_module
-from importlib.metadata import EntryPoint, entry_points
+from importlib.metadata import EntryPoint
 from pkgutil import iter_modules
 from typing import Any, ClassVar, Self
 
+from rosmini.core.entry_points import entry_points
 from rosmini.core.errors import RosminiError, nearest
 
 GROUP = "rosmini.plugins"

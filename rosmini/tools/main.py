@@ -15,11 +15,12 @@ import sys
 import textwrap
 from contextlib import contextmanager
 from dataclasses import dataclass
-from importlib.metadata import EntryPoint, entry_points
+from importlib.metadata import EntryPoint
 from operator import attrgetter
 from typing import TYPE_CHECKING, Protocol, cast
 
 from rosmini import __version__
+from rosmini.core.entry_points import entry_points
 from rosmini.core.errors import RosminiError, UsageError, nearest
 from rosmini.core.names import ROS_RELEASE, is_remapping
 from rosmini.core.verbs import Tool
@@ -186,9 +187,7 @@ COMMANDS: dict[str, Entry | Plugged] = {
         "rosmini_bench", "measure rosmini beside real ROS and other simulators", "tests/benchmarks", group=BOOK
     ),
 }
-COMMANDS.update(
-    (found.name, Plugged(found)) for found in sorted(entry_points(group="rosmini.verbs"), key=attrgetter("name"))
-)
+COMMANDS.update((found.name, Plugged(found)) for found in sorted(entry_points("rosmini.verbs"), key=attrgetter("name")))
 
 
 NO_COMMANDS = {

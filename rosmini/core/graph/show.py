@@ -7,9 +7,9 @@ renderers.
 
 from __future__ import annotations
 
-from importlib.metadata import entry_points
 from typing import TYPE_CHECKING, Any
 
+from rosmini.core.entry_points import entry_points
 from rosmini.core.errors import RosminiError, nearest
 
 if TYPE_CHECKING:

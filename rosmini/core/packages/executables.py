@@ -9,6 +9,7 @@ from importlib.metadata import EntryPoint
 from pathlib import Path
 from typing import Any
 
+from rosmini.core.entry_points import entry_points
 from rosmini.core.errors import ScriptError
 
 from .folders import assets_dir
@@ -48,8 +49,6 @@ class Executable:
 
 def built_in_nodes(package: str) -> dict[str, EntryPoint]:
     """Return the built-in nodes of a package by name, from all installed distributions."""
-    from importlib.metadata import entry_points
-
     prefix = f"{package}/"
     found = (each for each in entry_points(group=NODES_GROUP) if each.name.startswith(prefix))
     return {each.name[len(prefix) :]: each for each in sorted(found, key=lambda each: (each.name, each.value))}

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from importlib.metadata import entry_points
 from typing import TYPE_CHECKING, Any
 
+from rosmini.core.entry_points import entry_points
 from rosmini.core.errors import nearest
 from rosmini.core.plugins import GROUP
 from rosmini.navigation.costmap_2d.inflation_layer import InflationLayer
