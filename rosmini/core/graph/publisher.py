@@ -37,10 +37,10 @@ def _packet(frozen: Any) -> bytes:
 class MessageFactory:
     """A message that is made only if it has a receiver: ``publish(MessageFactory(make))`` sends ``make()``.
 
-    Use it for large or frequent messages that usually have no subscriber. A latching publisher makes its last one when
-    a subscriber connects. The data that ``make`` uses must not change afterwards. With ``is_frozen`` the result comes
-    from a :func:`rosmini.msgs.template`: no other code holds it, and it is not copied. With ``keeps_number`` its header
-    keeps its sequence number, for a message that another node published first.
+    Use it for large or frequent messages that usually have no subscriber. A latching publisher makes its last one
+    again when a subscriber connects. The data that ``make`` uses must not change afterwards. With ``is_frozen`` the
+    result comes from a :func:`rosmini.msgs.template`: no other code holds it, and it is not copied. With
+    ``keeps_number`` its header keeps its sequence number, for a message that another node published first.
     """
 
     __slots__ = ("is_frozen", "keeps_number", "make")
@@ -73,7 +73,9 @@ class Publication:
         self._only: QueuedSender | None = None
         """The only connection, if it is in this process and messages need only be sent: the usual case."""
         self._latched: Any = None
-        """The last message, frozen, or a `MessageFactory` that has not made it yet."""
+        """The last message, frozen, or the `MessageFactory` that makes it."""
+        self._latched_original: Any = None
+        """What the connections received of a latched factory."""
         self.warns_unheard = True
         """True until the warning about publishing without connections has been logged."""
         self.how_to_wait = "call wait_for_subscribers() first"
@@ -104,7 +106,7 @@ class Publication:
         scheduler = self._scheduler
         if type(message) is MessageFactory:
             if self._latch and not (to or self.senders) and scheduler.history is None:
-                self._latched = message
+                self._latched, self._latched_original = message, None
                 return
             frozen = self._made(message)
             set_header(frozen, self._header)
@@ -113,25 +115,25 @@ class Publication:
                 self._number(message)
             frozen = self._freeze(message, self._header)
         if get_ident() != scheduler.thread:
-            scheduler.call_soon_threadsafe(partial(self._hand_out, frozen, to))
+            scheduler.call_soon_threadsafe(partial(self._hand_out, frozen, to, message))
         elif self._only is not None and not to:
             self._only.send(frozen, self.queue_size)
         else:
-            self._hand_out(frozen, to)
+            self._hand_out(frozen, to, message)
 
-    def _made(self, factory: MessageFactory) -> Any:
-        """Return the message of a factory, numbered and frozen."""
+    def _made(self, factory: MessageFactory, *, late: bool = False) -> Any:
+        """Return the message of a factory, frozen, and numbered unless it is late."""
         message = factory.make()
         if self._has_header and not factory.keeps_number:
-            self._number(message)
+            self._number(message, late=late)
         return message if factory.is_frozen else self._freeze(message)
 
-    def _number(self, message: Any) -> None:
+    def _number(self, message: Any, *, late: bool = False) -> None:
         """Set the sequence number of a header, and the frame if it was never set, as rospy does."""
         header = message.header
         if header.frame_id is None:
             header.frame_id = "0"
-        if self.senders:  # rospy numbers only messages that have a receiver
+        if self.senders and not late:  # rospy numbers only messages that have a receiver
             if type(header) is self._header_class:
                 self._set_number(header, self._next_number())
             else:
@@ -148,8 +150,8 @@ class Publication:
         self._only = self._local[0] if is_simple else None
         self._header = None if self._only is None else self._only.header
 
-    def _hand_out(self, frozen: Any, to: str) -> None:
-        """Pass a frozen message to the connections. Runs in the scheduler's thread."""
+    def _hand_out(self, frozen: Any, to: str, message: Any) -> None:
+        """Pass a frozen message, of `message`, to the connections. Runs in the scheduler's thread."""
         history = self._scheduler.history
         if history is not None:
             history.published(self.node.name, self.topic, frozen)
@@ -158,7 +160,10 @@ class Publication:
                 self._give(sender, frozen, self.queue_size)
             return
         if self._latch:
-            self._latched = self._copy(frozen)
+            if type(message) is MessageFactory:  # to make it again takes less than a copy of each message
+                self._latched, self._latched_original = message, frozen
+            else:
+                self._latched, self._latched_original = self._copy(frozen), None
         size = self.queue_size
         if self._wires:
             packet = _packet(frozen)  # encoded once for all wires
@@ -244,7 +249,10 @@ class Publication:
     def add(self, sender: Sender) -> None:
         """Add a connection and send it the latched message."""
         if type(self._latched) is MessageFactory:
-            self._latched = self._made(self._latched)
+            self._latched = self._made(self._latched, late=True)
+            if self._scheduler.history is not None and self._latched_original is not None:
+                self._scheduler.history.same(self._latched, self._latched_original)
+            self._latched_original = None
         number = self.node.next_connection_id()
         self.senders[number] = sender
         sender.on_closed = lambda: self.remove(number)
