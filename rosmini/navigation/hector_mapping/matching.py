@@ -22,6 +22,9 @@ Floats = NDArray[np.float64]
 
 MAX_TURN = 0.2
 """Maximum rotation of a step [rad]."""
+DIGITS = 9
+"""Decimals of a pose [m, rad]. Sines and cosines differ in their last bit between machines, and where the map does not
+determine the pose, as in a corridor, a difference would grow with each match."""
 UNKNOWN_VARIANCE = 1e6
 """Variance of a quantity that a match does not determine [m2, rad2]."""
 
@@ -60,7 +63,11 @@ def match(grid: OccupancyGrid, points: Floats, pose: Pose, iterations: int) -> M
     if steps:
         x, y, heading = start.tolist()
         left, low = grid.origin
-        pose = (left + x * resolution, low + y * resolution, math.remainder(heading, math.tau))
+        pose = (
+            round(left + x * resolution, DIGITS),
+            round(low + y * resolution, DIGITS),
+            round(math.remainder(heading, math.tau), DIGITS),
+        )
     scale = np.array([1 / resolution, 1 / resolution, 1.0])
     hessian = np.array(((xx, xy, xt), (xy, yy, yt), (xt, yt, tt))) * scale[:, None] * scale
     return Matched(pose, hessian, spread, int(steps))
