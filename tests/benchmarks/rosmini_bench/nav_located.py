@@ -286,12 +286,12 @@ def _seeds(rows: list[Row]) -> str:
 
 INTRODUCTION = """# Localisation and mapping in figures
 
-How well do amcl, gmapping and hector_mapping know where the robot is? A driver node that knows the true pose drives a
-Burger through the simulator's worlds at 0.2 m/s, with turns on the spot. The laser measures while the robot moves, and
-the wheels slip. The runs behind a row of a table differ only in their seeds. Each cell shows the median over the runs,
-and in brackets the worst run; each chart shows a small point for each run, and a large one for the median. Each run is
-stored in `assets/benchmarks/localization.json`, with the commit that produced it. Chapters that quote a number link to
-its row here. To run more drives:
+How well do amcl, gmapping and hector_mapping know where the robot is? A program that knows the true pose drives a
+Burger through the simulator's worlds at 0.2 m/s, and turns it on the spot at corners. The laser measures while the
+robot moves, and the wheels slip. The runs that a row of a table summarises differ only in their seeds. Each cell shows
+the median over the runs, and in brackets the worst run; each chart shows a small point for each run, and a large one
+for the median. Each run is stored in `assets/benchmarks/localization.json`, with the commit that produced it. A chapter
+that quotes a number from this page links to its row. To run more drives:
 `PYTHONPATH=tests/benchmarks uv run python -m rosmini_bench.nav_located lost house --seeds 11 20`.
 """
 
@@ -305,11 +305,10 @@ WORDS: MappingProxyType[str, str] = MappingProxyType(
 ```
 
 The initial pose given to amcl is within 0.1 m and 6 degrees of the truth, and the parameters are those of
-`turtlebot3_navigation`.
-*Off* is the mean error, *turning* the mean error during turns, and *95th* the 95th percentile.
-In rows marked *people*, three people walk beside the robot and block about every fifth beam. *In the ellipse* is the
-proportion of estimates for which the true pose was inside the 95% ellipse of the published covariance. The map does not
-show crates that can be pushed; the driver steers around them.
+`turtlebot3_navigation`. *Off* is the mean error, *turning* the mean error during turns, and *95th* the 95th percentile.
+In rows marked *people*, three people who walk beside the robot block about every fifth beam. *In the ellipse* is the
+proportion of estimates for which the true pose was inside the 95% ellipse of the published covariance. Crates that can
+be pushed are not on the map; the program drives the robot around them.
 """,
         "lost": f"""
 ## amcl: a robot that may be anywhere
@@ -318,33 +317,34 @@ show crates that can be pushed; the driver steers around them.
 <a id="chart-found"></a>Figure 2: Robots that amcl found. The point is the proportion, the bar its 95% interval
 ```
 
-A robot counts as found if, within {WITHIN:.0f} s of driving, its estimated pose comes within 0.3 m of the truth and
-then stays there for {HELD:.0f} s. We chose these parameters using seeds other than those in the table:
+A robot counts as found if, within {WITHIN:.0f} s of driving, its estimated pose comes within 0.3 m of the true pose and
+then stays that close for {HELD:.0f} s. We chose these parameters using seeds other than those in the table:
 
 {{lost}}
 
-The reasons for these values are as follows. Of 10,000 particles in a house of 125 m², about seven are within half a
-metre and 20 degrees of the true pose. With a narrow `laser_sigma_hit` these seven are no likelier than those in places
-where a few walls fit by chance, and the filter converges on such a place. With 0.8 the seven are likelier.
-`likelihood_field_prob` multiplies
-the probabilities of the beams instead of adding their cubes, so eight updates are enough to distinguish the places,
+We chose these values for the following reasons. Of 10,000 particles in a house of 125 m², about seven are within half a
+metre and 20 degrees of the true pose. With a narrow bell curve (a small `laser_sigma_hit`), these seven are no likelier
+than particles in places where a few walls fit by chance, and the filter converges on one of those places. With a
+`laser_sigma_hit` of 0.8 m, the seven are likelier. `likelihood_field_prob` multiplies the probabilities of the beams
+instead of adding their cubes, so the eight updates between two resampling steps are enough to distinguish the places,
 even with such a wide bell curve. `diff-corrected` spreads the copies of a particle further than `diff`, which uses a
 variance as a standard deviation.
 
-`recovery_candidates` exists only in rosmini. The original draws random particles uniformly from the free cells. Here
-each of them is chosen from ten random poses, by the likelihood of the scan at each (*sensor resetting*, Lenser and
-Veloso 2000). In rows marked *uniform* they are drawn as in the original.
+`recovery_candidates` exists only in rosmini. The original amcl draws its random particles uniformly from the free
+cells. In our runs, rosmini's amcl draws ten times as many poses as it needs, and chooses among them by the likelihood
+of the scan at each pose (*sensor resetting*, Lenser and Veloso 2000). In rows marked *uniform*, it draws them
+uniformly, like the original.
 
-For most robots that were not found, the estimate settled in the hall or in a corridor, turned by half a circle: both
-look the same from either end.
+For most robots that were not found, the estimate settled in the hall or in a corridor, but turned by half a circle: the
+hall and the corridors look the same from either end.
 """,
         "kidnapped": f"""
 ## amcl: a robot that was carried away
 
-After {CARRIED:.0f} s the robot is carried elsewhere, which its odometry does not notice. The parameters are the same
-as above. amcl adds random particles while the fast average of the likelihood is below the slow average, and resets both
-averages after a resampling step in which it added any. With a narrow bell curve the likelihood differs by powers of ten
-from scan to scan, so random particles are added only a few times in two minutes. With a wide bell curve it differs
+After {CARRIED:.0f} s the robot is carried elsewhere without its odometry noticing. The parameters are those listed
+above. amcl adds random particles while the fast average of the likelihood is below the slow average, and resets both
+averages after a resampling step in which it added any. With a narrow bell curve, the likelihood varies by powers of ten
+from scan to scan, so amcl adds random particles only a few times in two minutes. With a wide bell curve, it varies
 less, and the few random particles near the true pose win.
 """,
         "gmapping": """
@@ -355,31 +355,34 @@ less, and the few random particles near the true pose win.
 odometry. Errors above 0.5 m are drawn at the right edge
 ```
 
-Errors are distances from the true path, with both paths aligned at the start. *Neighbours* are pairs of consecutive
-scans; *revisits* are pairs of scans more than 60 scans apart and less than a metre from each other; *precision* and
-*recall* are those of occupied cells, with a tolerance of two cells. `log_house` is a recorded drive on which we also
-ran the original gmapping: with its default parameters its error was 0.105 m, and 0.036 m at revisits, with a precision
-of 0.80 and a recall of 0.73. *csail* is a log of a real robot, for which the path that the original found is taken as
-the truth; the error of the original is 0.046 m between neighbours and 0.070 m at revisits. Rows marked *ours* use a
-scan every 0.2 m or 0.25 rad, and beams up to 3 m.
+*Off* is the root mean square distance between the estimated and the true path, aligned at the start. The columns
+*neighbours* and *revisits* show the error of the estimated motion between two scans: *neighbours* are consecutive
+scans, and *revisits* are scans more than 60 scans apart, but less than a metre from each other. *Precision* and
+*recall* are those of the occupied cells, with a tolerance of two cells. `log_house` is a recorded drive on which we
+also ran the original gmapping: with its default parameters, it was off by 0.105 m, and by 0.036 m at revisits, with a
+precision of 0.80 and a recall of 0.73. *csail* is a log of a real robot, whose true path is not known. The truth in its
+row is a path that the original gmapping found; in our runs of the original, the errors were 0.046 m between neighbours
+and 0.070 m at revisits. Rows marked *ours* use a scan every 0.2 m or 0.25 rad, and beams of up to 3 m.
 
-In rosmini the end of a beam counts only if the cell before it is free. The original is meant to check this, but looks
-up the wrong cell, so it counts every end. With the check, the result for csail is a little worse, but maps of the house
-are better, so we keep it.
+When rosmini matches a scan, the end of a beam counts only if the cell in front of it is free. The original is meant to
+check this cell, but looks up the wrong one, so every end counts. The check makes the result for csail a little worse,
+but the maps of the house better, so we keep it.
 
-*Office* and *maze* are drives of 240 s past people; no parameter was tuned on them. All walls count, seen or not, so
-the recall is low for any mapper.
+*Office* and *maze* are drives of 240 s past people; we did not use these drives for tuning. Their recall counts all
+walls, even those that the laser never saw, so it is low for any mapper.
 """,
         "hector": """
 ## hector_mapping
 
 Errors are root mean squares over drives of 120 s in the house. Rows differ in how fast the robot turns, and in whether
-the laser sweeps, that is, measures its beams one after another. In `log_house` the robot turns at 1.2 rad/s: without
-odometry hector_mapping loses track of it, and so does the original, because its matcher cannot correct a scan that is
-turned by 14 degrees. With odometry as the initial estimate, the original is off by 0.021 m.
+the laser sweeps, that is, measures its beams one after another. In `log_house` the robot turns at 1.2 rad/s, which is
+14 degrees from one scan to the next. The scan matcher cannot correct such a large turn, so without odometry both
+rosmini's hector_mapping and the original lose track of the robot. With odometry as the initial estimate, the original
+is off by 0.021 m.
 
-The robot waits for a second before it drives off, except in rows marked *off at once*. In those rows, the first scan
-may be taken during a turn, and a sweep then distorts it; this rotates the whole map, and the path with it.
+The robot waits for a second before it drives off, except in rows marked *off at once*. In those rows, the robot may
+already be turning during the first scan, and if the laser sweeps, that scan is distorted. This rotates the whole map,
+and the path with it.
 """,
     }
 )
