@@ -145,10 +145,11 @@ def _together(goals: Rows) -> Iterator[str]:
         if len(found) == len(nav_quality.WORLDS):
             reached, count = sum(one.reached for one in found), sum(one.count for one in found)
             low, high = wilson(reached, count)
+            contacts = sum(one.contacts for one in found)
             yield (
-                f"- In all three worlds, with {localization} and seed {seed}, {reached} of {count} goals were reached "
-                f"({reached / count:.1%}; 95% interval {low:.1%} to {high:.1%}); contacts occurred in "
-                f"{sum(one.contacts for one in found)} drives."
+                f"- In the three worlds together, with {localization} and seed {seed}, {reached} of {count} goals were "
+                f"reached ({reached / count:.1%}; 95% interval {low:.1%} to {high:.1%}); "
+                f"{f'contacts occurred in {contacts} drives' if contacts else 'no drive had a contact'}."
             )
 
 
@@ -190,9 +191,9 @@ INTRODUCTION = f"""# Navigation in figures
 
 How often does this book's Navigation Stack bring a robot to its goal? These charts and tables summarise {{}} drives in
 the simulator's worlds. Each drive is stored in `assets/benchmarks/navigation.jsonl`, with its seed and the commit that
-produced it. Chapters that quote a number link to its row here. After a later commit, the last digit of a computation
-may be rounded differently. A drive with the same seed then takes a different course after some time, so to check a
-figure, repeat many drives, not one.
+produced it. A chapter that quotes a number from this page links to its row. A later commit may round the last digit of
+a computation differently. A drive with the same seed then eventually takes a different course, so to check a figure,
+repeat many drives, not one.
 
 ## Goals in the house, the maze and the office
 
@@ -218,7 +219,7 @@ How to read the table:
   map.
 - **Time**: the time that the drive took, divided by the time for the shortest path at full speed. For length and time,
   each cell shows the median over the goals reached, and in brackets the 95th percentile.
-- **Off**: the median of the true distance from the goal at the end.
+- **Off**: the median true distance from the goal at the end of a drive.
 
 We chose the parameters of `careful.yaml` by looking at the failures with seed 7. We ran seed 23 afterwards, and
 changed nothing after that. Setups with fewer than {LEAST} goals appear only in `navigation.jsonl`. To run more drives:
@@ -227,7 +228,7 @@ changed nothing after that. Setups with fewer than {LEAST} goals appear only in 
 
 OTHERS = """## Other robots, planners and files
 
-*Narrower places* are starts and goals with less room. *No sweep* means that all beams are measured at the same moment.
+*Narrower places* are goals with less room around them. *No sweep* means that all beams are measured at the same moment.
 Rows without *careful* use the files of `turtlebot3_navigation` without `careful.yaml`.
 """
 
@@ -248,10 +249,11 @@ EXPLORING = """## Exploring
 run, a large one for the median
 ```
 
-Both explorers use gmapping with its default of 30 particles, and `careful:=true`. We let explore_lite give up a
-frontier only after 120 s without progress, because in the house a frontier may be close in a straight line but a long
-drive away. *Seen* is the proportion of the reachable cells that are known in the final map; the table shows the median
-and, in brackets, the lowest. *Saw all* counts the runs that saw {good} or more.
+The two explorers, explore_lite and frontier_exploration, use gmapping with its default of 30 particles, and
+`careful:=true`. We let explore_lite give up a frontier only after 120 s without progress, because in the house a
+frontier may be close in a straight line but a long drive away. *Seen* is the proportion of the reachable cells that are
+known in the final map; the table shows the median and, in brackets, the lowest value. *Saw all* counts the runs that
+saw {good} or more.
 
 In the house and the maze {full} runs saw {good} or more, and {ended} ended by themselves.
 
@@ -260,7 +262,7 @@ In the office both explorers miss rooms: the best run saw {most} of the floor, a
 as a wall, and a wall is not a frontier. The wall often stays on the map when the door opens: gmapping ignores a beam
 that hits nothing, and through an open door many beams hit nothing, because the room is deeper than the laser's range.
 People walking through a doorway have the same effect as a shut door. Neither explorer looks at a wall a second time,
-nor do the originals.
+nor do the original packages.
 """
 
 CROSSING = """## Robots that cross one another's paths
@@ -271,8 +273,9 @@ planner treats the other robots as obstacles that stay where the last scan saw t
 
 The robots use the careful files: `multi_turtlebot3_navigation.launch` sets `careful:=true`. We chose this setting using
 seeds 0 to 49, the 50 runs in the table. In the same runs without `careful.yaml`, 197 of 200 goals were reached, with 13
-contacts in three runs. We ran seeds 1000 to 1047 afterwards, and changed nothing after that: all 192 goals were reached
-without a contact. Without `careful.yaml`, 190 of 192 were reached, with 10 contacts in four runs.
+contacts in three runs. We ran seeds 1000 to 1047 afterwards, and changed nothing after that. In these 48 runs, all 192
+goals were reached without a contact. In the same runs without `careful.yaml`, 190 of 192 goals were reached, with 10
+contacts in four runs.
 """
 
 FAILURES = """## Each failure with the careful files
@@ -292,25 +295,27 @@ are the causes, and what `careful.yaml` changes:
   `careful.yaml` treats the robot as a disc.
 - **No way back.** A robot whose front is 3 cm from an obstacle can neither drive forward nor turn. `careful.yaml`
   lets it reverse at up to 0.1 m/s, as ROBOTIS's files do.
-- **People.** People came so close that their cells in the costmap overlapped the footprint. Then they waited for
-  the robot, which could not leave. In the simulator they now keep 0.3 m away, and turn back after 5 s.
-- **Local costmap.** The local planner is drawn to the point where the plan leaves the local costmap. In a window of 3 m
-  that point could lie behind a wall that the plan goes around, and then the robot turned on the spot. `careful.yaml`
+- **People.** People came so close to the robot that their cells in the costmap overlapped its footprint. They then
+  waited for the robot, which could not leave. In the simulator, people now keep 0.3 m away, and turn back after 5 s.
+- **Local costmap.** The local planner is drawn to the point where the plan leaves the local costmap. With a window of 3
+  m, that point can lie behind a wall that the plan goes around, and the robot then turns on the spot. `careful.yaml`
   uses a window of 2 m.
 - **Ghosts.** A beam that hits nothing clears nothing unless `inf_is_valid` is set, so people leave a trail of obstacles
   in wide rooms. `careful.yaml` sets it.
 - **Doors.** The costmap keeps the earlier positions of a door that was seen while it opened. With `careful.yaml`,
-  `move_base` plans for 10 s between two recoveries, rotates only once, and clears the costmap more often.
-- **Cells.** In a costmap with cells of 5 cm, an outline may be 5 cm too wide. Noise then marks a cell under the robot,
-  and every way out is rejected. `careful.yaml` uses cells of 2.5 cm in the local costmap.
-- **First pose.** The first pose that `amcl` is given is right to within about 0.5 m. At the entrance of the house the
-  scan fits nearly as well 0.8 m further on, and the published mean lies between the two poses.
-- **Frontiers.** explore_lite measures progress in a straight line, so it gives up a frontier while the robot is driving
-  around a wall to reach it.
-- **Not explained.** In the maze, two robots are reported as oscillating although their path is clear. In the office, a
-  few robots start in a corner in which nearly every sampled velocity would cause a contact.
+  `move_base` plans for up to 10 s before each recovery behavior, rotates only once, and clears the costmap more often.
+- **Cells.** In a costmap with cells of 5 cm, an obstacle may appear up to 5 cm too wide. Noise may then mark a cell
+  under a robot that is close to an obstacle, and the local planner rejects every way out. `careful.yaml` uses cells of
+  2.5 cm in the local costmap.
+- **Initial pose.** The initial pose given to `amcl` is right to within about 0.5 m. At the entrance of the house, the
+  scan fits nearly as well 0.8 m beyond the true pose, and the mean that `amcl` publishes lies between the two poses.
+- **Frontiers.** explore_lite measures progress in a straight line, so it may give up a frontier while the robot is
+  driving around a wall to reach it.
+- **Not explained.** In the maze, `move_base` reports two robots as oscillating although their path is clear. In the
+  office, a few robots start in a corner in which nearly every sampled velocity would cause a contact.
 
-`carrot_planner` does not plan around walls: it makes the robot drive straight to the last free point in front of them.
+`carrot_planner` does not plan around walls: its plan is a straight line to the goal, so the robot stops in front of the
+first wall on that line.
 """
 
 
