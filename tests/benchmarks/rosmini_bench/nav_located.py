@@ -327,8 +327,8 @@ metre and 20 degrees of the true pose. With a narrow bell curve (a small `laser_
 than particles in places where a few walls fit by chance, and the filter converges on one of those places. With a
 `laser_sigma_hit` of 0.8 m, the seven are likelier. `likelihood_field_prob` multiplies the probabilities of the beams
 instead of adding their cubes, so the eight updates between two resampling steps are enough to distinguish the places,
-even with such a wide bell curve. `diff-corrected` spreads the copies of a particle further than `diff`, which uses a
-variance as a standard deviation.
+even with such a wide bell curve. `diff-corrected` spreads the copies of a particle further than `diff`, which mistakes
+a variance for a standard deviation.
 
 `recovery_candidates` exists only in rosmini. The original amcl draws its random particles uniformly from the free
 cells. In our runs, rosmini's amcl draws ten times as many poses as it needs, and chooses among them by the likelihood
@@ -344,8 +344,8 @@ hall and the corridors look the same from either end.
 After {CARRIED:.0f} s the robot is carried elsewhere without its odometry noticing. The parameters are those listed
 above. amcl adds random particles while the fast average of the likelihood is below the slow average, and resets both
 averages after a resampling step in which it added any. With a narrow bell curve, the likelihood varies by powers of ten
-from scan to scan, so amcl adds random particles only a few times in two minutes. With a wide bell curve, it varies
-less, and the few random particles near the true pose win.
+from scan to scan, so amcl adds random particles only a few times in two minutes. With a wide bell curve, the likelihood
+varies less, and the few random particles near the true pose win.
 """,
         "gmapping": """
 ## gmapping

@@ -211,7 +211,7 @@ second, measures while the robot moves, and is noisy. The robot's pose comes fro
 How to read the table:
 
 - **Reached**: `move_base` reported `SUCCEEDED`, and the true pose was within the goal tolerance. With `amcl`, whose
-  estimate has an error, the true pose may be up to 0.25 m and 0.3 rad from the goal.
+  estimate has an error, a true pose up to 0.25 m and 0.3 rad from the goal counts as reached.
 - **95% interval**: the Wilson interval for the proportion. If the intervals of two rows overlap, chance may explain the
   difference.
 - **Contacts**: the number of drives in which the robot hit something.
@@ -289,10 +289,10 @@ For each failure with seed 7, we looked at the costmaps, the plan, and the reaso
 velocity. The chapter {doc}`../../notebooks/7_navigation/95_tune_and_fix` shows how to find and fix such faults. These
 are the causes, and what `careful.yaml` changes:
 
-- **Footprint.** The origin of a Burger is near its front, so the inscribed radius of its footprint is only 5 cm.
-  A global plan keeps only this distance from obstacles, and leads through places too narrow for the robot, such as
-  the space between the legs of a chair. The local planner checks the whole footprint and refuses to drive there.
-  `careful.yaml` treats the robot as a disc.
+- **Footprint.** The origin of the Burger's base frame is near the robot's front, so the inscribed radius of the
+  footprint is only 5 cm. A global plan keeps only this distance from obstacles, and leads through places too narrow for
+  the robot, such as the space between the legs of a chair. The local planner checks the whole footprint and refuses to
+  drive there. With `careful.yaml`, the global planner treats the robot as a disc.
 - **No way back.** A robot whose front is 3 cm from an obstacle can neither drive forward nor turn. `careful.yaml`
   lets it reverse at up to 0.1 m/s, as ROBOTIS's files do.
 - **People.** People came so close to the robot that their cells in the costmap overlapped its footprint. They then
