@@ -47,30 +47,32 @@ class SimulatorParameters(Parameters):
     strict = True
     allowed = ("robots",)
 
-    world: str = parameter("room", "which world: a name, or a map's yaml file")
-    model: str | None = parameter(None, "which robot; without it what TURTLEBOT3_MODEL says, else burger")
-    x: float | None = parameter(None, "where the robot starts; without it at the world's first start", unit="m")
-    y: float | None = parameter(None, "where the robot starts", unit="m")
-    yaw: float | None = parameter(None, "its heading there, counter-clockwise from the x axis", unit="rad")
-    noise: float = parameter(1.0, "scales every error of wheels and sensors; 0: none", minimum=0.0)
-    odometry: str = parameter(ODOMETRY[0], "what says how far a robot has turned, for its odometry", choices=ODOMETRY)
+    world: str = parameter("room", "the world: a name, or the yaml file of a map")
+    model: str | None = parameter(None, "the robot's model; by default that in TURTLEBOT3_MODEL, or else burger")
+    x: float | None = parameter(None, "x of the robot at the start; by default at the world's first start", unit="m")
+    y: float | None = parameter(None, "y of the robot at the start", unit="m")
+    yaw: float | None = parameter(
+        None, "the robot's heading at the start, counter-clockwise from the x axis", unit="rad"
+    )
+    noise: float = parameter(1.0, "factor of all errors of wheels and sensors; 0: no errors", minimum=0.0)
+    odometry: str = parameter(ODOMETRY[0], "source of the heading in the odometry", choices=ODOMETRY)
     sweep: bool = parameter(
         True, "measure a scan's beams one after the other, as a real LDS-01 does, and not all at once"
     )
     cmd_vel_timeout: float = parameter(
-        COMMAND_TIMEOUT, "how long a command holds; 0: until the next", unit="s", minimum=0.0
+        COMMAND_TIMEOUT, "how long a command holds; 0: until the next one", unit="s", minimum=0.0
     )
     tf: bool = parameter(True, "publish the transform from odom to base_footprint")
-    tf_prefix: str = parameter("", "what the names of the robot's frames begin with: tb3_0 gives tb3_0/odom")
+    tf_prefix: str = parameter("", "prefix of the names of the robot's frames: tb3_0 gives tb3_0/odom")
     board: bool = parameter(
-        False, "have the topics of the robot's board too: sensor_state, battery_state, motor_power, reset"
+        False, "also offer the topics of the robot's board: sensor_state, battery_state, motor_power, reset"
     )
-    battery: float = parameter(1.0, "with the board: how full the batteries are at first", minimum=0.0, maximum=1.0)
-    obstacles: bool = parameter(
-        False, "publish where all that moves by itself or can be pushed is, as markers on obstacles"
+    battery: float = parameter(
+        1.0, "with the board: the charge of the batteries at the start", minimum=0.0, maximum=1.0
     )
+    obstacles: bool = parameter(False, "publish all things that move or can be pushed, as markers on obstacles")
     use_rep_117: bool = parameter(
-        True, "write inf for what is too far and -inf for what is too near; else 0.0, as a real LDS-01 does"
+        True, "write inf for too far and -inf for too near; otherwise 0.0, as a real LDS-01 does"
     )
 
 

@@ -105,7 +105,7 @@ class AmclConfig(Parameters):
     )
     use_map_topic: bool = parameter(False, "subscribe to map instead of calling static_map")
     first_map_only: bool = parameter(False, "use only the first map")
-    restore_defaults: bool = parameter(False, "reset all of these to their initial values")
+    restore_defaults: bool = parameter(False, "reset all parameters to their initial values")
 
 
 @dataclass(frozen=True)
@@ -132,16 +132,16 @@ class AmclParameters(AmclConfig):
         0.1, "standard deviation of the heading above which `/diagnostics` warns; negative: never", unit="rad"
     )
     initial_pose_x: float = parameter(
-        0.0, "where the robot is at the start", unit="m", minimum=-MAX_COORDINATE, maximum=MAX_COORDINATE
+        0.0, "x of the robot at the start", unit="m", minimum=-MAX_COORDINATE, maximum=MAX_COORDINATE
     )
     initial_pose_y: float = parameter(
-        0.0, "where the robot is at the start", unit="m", minimum=-MAX_COORDINATE, maximum=MAX_COORDINATE
+        0.0, "y of the robot at the start", unit="m", minimum=-MAX_COORDINATE, maximum=MAX_COORDINATE
     )
     initial_pose_a: float = parameter(
-        0.0, "its heading at the start", unit="rad", minimum=-MAX_COORDINATE, maximum=MAX_COORDINATE
+        0.0, "heading of the robot at the start", unit="rad", minimum=-MAX_COORDINATE, maximum=MAX_COORDINATE
     )
-    initial_cov_xx: float = parameter(0.25, "how sure that is: a variance", unit="m2", minimum=0.0, maximum=1e6)
-    initial_cov_yy: float = parameter(0.25, "how sure that is: a variance", unit="m2", minimum=0.0, maximum=1e6)
+    initial_cov_xx: float = parameter(0.25, "variance of x at the start", unit="m2", minimum=0.0, maximum=1e6)
+    initial_cov_yy: float = parameter(0.25, "variance of y at the start", unit="m2", minimum=0.0, maximum=1e6)
     initial_cov_aa: float = parameter(
-        (math.pi / 12) ** 2, "how sure that is: a variance", unit="rad2", minimum=0.0, maximum=1e6
+        (math.pi / 12) ** 2, "variance of the heading at the start", unit="rad2", minimum=0.0, maximum=1e6
     )

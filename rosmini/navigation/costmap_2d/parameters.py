@@ -135,8 +135,8 @@ class ObstacleStatics(Parameters):
     track_unknown_space: bool | None = parameter(
         None, "whether cells not yet seen are unknown; by default the costmap's setting"
     )
-    obstacle_range: float = parameter(2.5, "for sources that set none", unit="m")
-    raytrace_range: float = parameter(3.0, "for sources that set none", unit="m")
+    obstacle_range: float = parameter(2.5, "for sources that do not set their own", unit="m")
+    raytrace_range: float = parameter(3.0, "for sources that do not set their own", unit="m")
 
     def others(self) -> Iterable[str]:
         """Return the names of the sources, which are namespaces of their parameters."""

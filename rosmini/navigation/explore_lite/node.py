@@ -37,10 +37,10 @@ class ExploreParameters(Parameters):
 
     robot_base_frame: str = parameter("base_link", "the robot's frame")
     costmap_topic: str = parameter("costmap", "the topic of a map or costmap")
-    costmap_updates_topic: str = parameter("costmap_updates", "and its updates")
+    costmap_updates_topic: str = parameter("costmap_updates", "the topic of the updates of that map")
     visualize: bool = parameter(False, "whether frontiers are published on ~frontiers")
     planner_frequency: float = parameter(1.0, "rate at which a goal is chosen", unit="Hz", minimum=1e-3)
-    progress_timeout: float = parameter(30.0, "a goal without progress for this time is given up", unit="s")
+    progress_timeout: float = parameter(30.0, "the node gives up a goal after this time without progress", unit="s")
     potential_scale: float = parameter(1e-3, "the weight of a frontier's distance")
     orientation_scale: float = parameter(0.0, "has no effect, as in ROS")
     gain_scale: float = parameter(1.0, "the weight of a frontier's size")

@@ -23,7 +23,7 @@ class GmappingParameters(Parameters):
     base_frame: Text = parameter("base_link", "the robot's frame")
     map_frame: Text = parameter("map", "the map's frame")
     odom_frame: Text = parameter("odom", "the odometry's frame")
-    throttle_scans: int = parameter(1, "use one in this many scans", limits=(1, None))
+    throttle_scans: int = parameter(1, "use only every n-th scan", limits=(1, None))
     map_update_interval: float = parameter(5.0, "interval between two maps", unit="s")
     transform_publish_period: float = parameter(
         0.05, "interval between two transforms from map to odom; 0: none", unit="s", limits=(-1e6, 1e6)

@@ -36,7 +36,7 @@ class PhysicsProperties(Parameters):
 
     time_step: float = parameter(0.001, "time step of the physics", unit="s", minimum=MIN_STEP_S, maximum=MAX_STEP_S)
     max_update_rate: float = parameter(
-        1000.0, "steps a second; 0: as fast as it can", unit="Hz", minimum=0.0, maximum=1e6
+        1000.0, "steps a second; 0: as many as possible", unit="Hz", minimum=0.0, maximum=1e6
     )
     gravity_x: float = parameter(0.0, "gravity along x", unit="m/s2", minimum=-100.0, maximum=100.0)
     gravity_y: float = parameter(0.0, "gravity along y", unit="m/s2", minimum=-100.0, maximum=100.0)

@@ -30,9 +30,9 @@ class RobotStatePublisherParameters(Parameters):
 
     allowed: ClassVar[tuple[str, ...]] = (NAME, "tf_prefix")
 
-    publish_frequency: float = parameter(50.0, "how often a joint is told at most", unit="Hz")
-    use_tf_static: bool = parameter(True, "fixed joints are told once, on /tf_static, and not over and over on /tf")
-    ignore_timestamp: bool = parameter(False, "tell of every message of joint_states, however soon after the last")
+    publish_frequency: float = parameter(50.0, "maximum rate at which the transform of a joint is published", unit="Hz")
+    use_tf_static: bool = parameter(True, "publish fixed joints once, on /tf_static, not repeatedly on /tf")
+    ignore_timestamp: bool = parameter(False, "publish for every message on joint_states, however soon after the last")
 
 
 class RobotStatePublisher:

@@ -53,7 +53,7 @@ class StageParameters(Parameters):
     """The private parameters of `stage_ros/stageros`."""
 
     base_watchdog_timeout: float = parameter(
-        WATCHDOG, "without a command for so long all robots stop; 0: never", unit="s"
+        WATCHDOG, "all robots stop after this time without a command; 0: never", unit="s"
     )
 
 

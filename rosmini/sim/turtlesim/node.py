@@ -35,7 +35,7 @@ STEP_NS = round(STEP_S * 1e9)
 
 @dataclass(frozen=True)
 class TurtleSimParameters(Parameters):
-    """The private parameters of `turtlesim_node`. The node sets those of the background if they do not exist.
+    """The private parameters of `turtlesim_node`, which sets the background parameters if they do not exist.
 
     A changed background takes effect at `clear` or `reset`.
     """
@@ -43,7 +43,7 @@ class TurtleSimParameters(Parameters):
     background_r: int = parameter(BACKGROUND[0], "red of the background")
     background_g: int = parameter(BACKGROUND[1], "green of the background")
     background_b: int = parameter(BACKGROUND[2], "blue of the background")
-    holonomic: bool = parameter(True, "turtles go sideways with linear.y of a Twist, as Noetic's do")
+    holonomic: bool = parameter(True, "turtles obey linear.y of a Twist, and move sideways, as in Noetic")
 
     @property
     def background(self) -> Colour:

@@ -40,11 +40,11 @@ class SmootherLimits(Parameters):
 class SmootherParameters(SmootherLimits):
     """The private parameters of `yocs_velocity_smoother/velocity_smoother`."""
 
-    frequency: float = parameter(20.0, "how often it publishes", unit="Hz", minimum=0.1, maximum=1000.0)
+    frequency: float = parameter(20.0, "publication rate", unit="Hz", minimum=0.1, maximum=1000.0)
     robot_feedback: int = parameter(
-        0, "where the robot's speeds are from: 0 nowhere, 1 its odometry, 2 the commands it gets in the end"
+        0, "where the robot's speeds come from: 0 nowhere, 1 its odometry, 2 the commands that reach it"
     )
-    quiet: bool = parameter(False, "do not warn of a command that was no number")
+    quiet: bool = parameter(False, "do not warn about a command that is not a number")
 
 
 class VelocitySmootherNode:
