@@ -90,9 +90,9 @@ def mass_of_pieces(pieces: Sequence[Piece], mass: float) -> Mass:
             centre = np.array([((x + u) * cross).sum(), ((y + v) * cross).sum()]) / (6 * size)
             second = float((cross * (x * x + x * u + u * u + y * y + y * v + v * v)).sum()) / 12
             parts.append((size, middle + centre, second - size * scalar_product(centre, centre)))
-    total = sum(size for size, _, _ in parts)
+    total = math.fsum(size for size, _, _ in parts)
     centre = sum(size * place for size, place, _ in parts) / total
-    second = sum(own + size * scalar_product(place - centre, place - centre) for size, place, own in parts)
+    second = math.fsum(own + size * scalar_product(place - centre, place - centre) for size, place, own in parts)
     return Mass(mass, mass * second / total, float(centre[0]), float(centre[1]))
 
 
@@ -213,7 +213,7 @@ def crate_body(crate: Crate) -> Body:
     pieces = pieces_of(obstacle.shape)
     mass = mass_of_pieces(pieces, obstacle.mass)
     # friction distributed evenly over a disc of this area has a lever arm of two thirds of its radius
-    size = sum(math.pi * p.radius**2 if len(p.corners) == 1 else area(p.corners) for p in pieces)
+    size = math.fsum(math.pi * p.radius**2 if len(p.corners) == 1 else area(p.corners) for p in pieces)
     radius = math.sqrt(size / math.pi)
     if isinstance(obstacle.shape, Compound):  # use the disc with the same moment of inertia, m r^2 / 2
         radius = math.sqrt(2 * mass.inertia / mass.mass)

@@ -7,6 +7,7 @@ A link on a fixed joint becomes part of the link that it is fixed to, as in Gaze
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
@@ -159,7 +160,7 @@ class _Conversion:
                 turn = at[:3, :3]
                 own = matrix_product(matrix_product(turn, part.inertial.matrix), turn.T)
                 bodies.append((part.inertial.mass, at[:3, 3], own))
-        mass = sum(m for m, _, _ in bodies)
+        mass = math.fsum(m for m, _, _ in bodies)
         if not mass:
             return SdfInertial(mass=1e-9, inertia=(1e-9, 1e-9, 1e-9, 0.0, 0.0, 0.0))
         centre = np.array(sum(m * at for m, at, _ in bodies)) / mass

@@ -100,10 +100,10 @@ def to_walker(actor: SdfActor) -> Obstacle:
     motion = None
     try:
         if len(points) > 1:
-            length = sum(math.dist(a, b) for a, b in pairwise(points))
+            length = math.fsum(math.dist(a, b) for a, b in pairwise(points))
             if actor.loop and len(points) > 2 and math.dist(points[0], points[-1]) < 1e-6:
                 points.pop()
-            wait = sum(waits) / (len(points) if actor.loop else len(points) - 1)
+            wait = math.fsum(waits) / (len(points) if actor.loop else len(points) - 1)
             motion = Walk(tuple(points), length / walked if walked > 0 else Walk.speed, round(wait, 6), actor.loop)
         return Obstacle(actor.name, WALKER, (x, y, yaw), WALKER_HEIGHT, WALKER_COLOUR, motion=motion)
     except WorldError as error:
@@ -171,7 +171,7 @@ def _one(model: SdfModel, pose: Pose, motion: Motion | None, found: list[_Piece]
         pose,
         max(each.top for each in solid),
         found[0].colour,
-        None if motion else sum(link.inertial.mass for _, link, _ in placed_links(model)),
+        None if motion else math.fsum(link.inertial.mass for _, link, _ in placed_links(model)),
         min(each.bottom for each in solid),
         motion,
         drag=min(frictions) if frictions and motion is None else None,
