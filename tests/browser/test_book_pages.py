@@ -16,18 +16,22 @@ WIDTHS = {"desktop": (1280, 900), "phone": (390, 844)}
 SIDEWAYS = "document.documentElement.scrollWidth - document.documentElement.clientWidth"
 
 SETTLES = """() => new Promise((settled) => {
-  const end = performance.now() + 3000;
+  const begin = performance.now();
+  let again = begin + 1000;
   const look = () => {
     document.getAnimations().forEach((each) => each instanceof CSSTransition && each.finish());
     const areReached = [...document.querySelectorAll(".bd-article :is(pre, .pst-scrollable-table-container)")]
       .every((each) => (each.tabIndex === 0) === (each.scrollWidth > each.clientWidth));
-    if (areReached || performance.now() > end) settled(); else setTimeout(look, 50);
+    const now = performance.now();
+    if (areReached || now > begin + 3000) return settled();
+    if (now > again) window.dispatchEvent(new Event("resize")), (again = now + 1000);
+    setTimeout(look, 50);
   };
   look();
 })"""
 """Give the colours of a scheme, and wait until the keyboard reaches what scrolls, only; if it never does, axe says so.
 
-The theme sees to the latter 300 ms after the window has changed.
+The theme sees to the latter 300 ms after the window has changed, once; a busy machine may not have laid the page out.
 """
 
 IS_DRAWN = "() => new Promise(drawn => requestAnimationFrame(() => requestAnimationFrame(drawn)))"
