@@ -288,10 +288,11 @@ INTRODUCTION = """# Localisation and mapping in figures
 
 How well do amcl, gmapping and hector_mapping know where the robot is? A program that knows the true pose drives a
 Burger through the simulator's worlds at 0.2 m/s, and turns it on the spot at corners. The laser measures while the
-robot moves, and the wheels slip. The runs that a row of a table summarises differ only in their seeds. Each cell shows
-the median over the runs, and in brackets the worst run; each chart shows a small point for each run, and a large one
-for the median. Each run is stored in `assets/benchmarks/localization.json`, with the commit that produced it. A chapter
-that quotes a number from this page links to its row. To run more drives:
+robot moves, and the wheels slip. The runs that a row of a table summarises differ only in their seeds. In a cell with
+brackets, the first number is the median over the runs, and the number in brackets is that of the worst run. In Figures
+1 and 3 each run is a small point, and the median a large one. Each run is stored in
+`assets/benchmarks/localization.json`, with the commit that produced it. A chapter that quotes a number from this page
+links to its row. To run more drives:
 `PYTHONPATH=tests/benchmarks uv run python -m rosmini_bench.nav_located lost house --seeds 11 20`.
 """
 
@@ -306,9 +307,9 @@ WORDS: MappingProxyType[str, str] = MappingProxyType(
 
 The initial pose given to amcl is within 0.1 m and 6 degrees of the truth, and the parameters are those of
 `turtlebot3_navigation`. *Off* is the mean error, *turning* the mean error during turns, and *95th* the 95th percentile.
-In rows marked *people*, three people who walk beside the robot block about every fifth beam. *In the ellipse* is the
-proportion of estimates for which the true pose was inside the 95% ellipse of the published covariance. Crates that can
-be pushed are not on the map; the program drives the robot around them.
+In rows marked *people*, three people who walk beside the robot block about a fifth of the beams. *In the ellipse* is
+the proportion of estimates for which the true pose was inside the 95% ellipse of the published covariance. Crates that
+can be pushed are not on the map; the program drives the robot around them.
 """,
         "lost": f"""
 ## amcl: a robot that may be anywhere
@@ -318,7 +319,8 @@ be pushed are not on the map; the program drives the robot around them.
 ```
 
 A robot counts as found if, within {WITHIN:.0f} s of driving, its estimated pose comes within 0.3 m of the true pose and
-then stays that close for {HELD:.0f} s. We chose these parameters using seeds other than those in the table:
+then stays that close for {HELD:.0f} s. *Median* is the median time until a robot was found. We chose these parameters
+using seeds other than those in the table:
 
 {{lost}}
 
@@ -335,8 +337,8 @@ cells. In our runs, rosmini's amcl draws ten times as many poses as it needs, an
 of the scan at each pose (*sensor resetting*, Lenser and Veloso 2000). In rows marked *uniform*, it draws them
 uniformly, like the original.
 
-For most robots that were not found, the estimate settled in the hall or in a corridor, but turned by half a circle: the
-hall and the corridors look the same from either end.
+For most robots that were not found, the estimated pose settled in the hall or in a corridor, facing the opposite way:
+the hall and the corridors look the same from either end.
 """,
         "kidnapped": f"""
 ## amcl: a robot that was carried away

@@ -238,8 +238,8 @@ CYLINDERS = """## Between cylinders that are not on the map
 <a id="chart-gaps"></a>Figure 2: Goals reached between cylinders, by the width of the gaps
 ```
 
-The width of a gap is given in widths of the Burger, which is 0.21 m wide. The planner learns about a cylinder only
-when the laser sees it. In front of narrow gaps the robot gives up without touching anything.
+The width of a gap is given as a multiple of the Burger's width, 0.21 m. The planner learns about a cylinder only when
+the laser sees it. Where the gaps are too narrow, the robot does not reach its goal, but it touches nothing.
 """
 
 EXPLORING = """## Exploring
@@ -250,7 +250,7 @@ run, a large one for the median
 ```
 
 The two explorers, explore_lite and frontier_exploration, use gmapping with its default of 30 particles, and
-`careful:=true`. We let explore_lite give up a frontier only after 120 s without progress, because in the house a
+`careful:=true`. We let explore_lite abandon a frontier only after 120 s without progress, because in the house a
 frontier may be close in a straight line but a long drive away. *Seen* is the proportion of the reachable cells that are
 known in the final map; the table shows the median and, in brackets, the lowest value. *Saw all* counts the runs that
 saw {good} or more.
@@ -272,10 +272,10 @@ another started. A contact is counted for each robot that was moving faster than
 planner treats the other robots as obstacles that stay where the last scan saw them.
 
 The robots use the careful files: `multi_turtlebot3_navigation.launch` sets `careful:=true`. We chose this setting using
-seeds 0 to 49, the 50 runs in the table. In the same runs without `careful.yaml`, 197 of 200 goals were reached, with 13
-contacts in three runs. We ran seeds 1000 to 1047 afterwards, and changed nothing after that. In these 48 runs, all 192
-goals were reached without a contact. In the same runs without `careful.yaml`, 190 of 192 goals were reached, with 10
-contacts in four runs.
+the 50 runs in the table, with seeds 0 to 49. In the same runs without `careful.yaml`, 197 of 200 goals were reached,
+with 13 contacts in three runs. We ran seeds 1000 to 1047 afterwards, and changed nothing after that. In these 48 runs,
+all 192 goals were reached without a contact. In the same runs without `careful.yaml`, 190 of 192 goals were reached,
+with 10 contacts in four runs.
 """
 
 FAILURES = """## Each failure with the careful files
@@ -294,7 +294,7 @@ are the causes, and what `careful.yaml` changes:
   the robot, such as the space between the legs of a chair. The local planner checks the whole footprint and refuses to
   drive there. With `careful.yaml`, the global planner treats the robot as a disc.
 - **No way back.** A robot whose front is 3 cm from an obstacle can neither drive forward nor turn. `careful.yaml`
-  lets it reverse at up to 0.1 m/s, as ROBOTIS's files do.
+  lets it reverse at up to 0.1 m/s, as ROBOTIS's original files do.
 - **People.** People came so close to the robot that their cells in the costmap overlapped its footprint. They then
   waited for the robot, which could not leave. In the simulator, people now keep 0.3 m away, and turn back after 5 s.
 - **Local costmap.** The local planner is drawn to the point where the plan leaves the local costmap. With a window of 3
@@ -309,7 +309,7 @@ are the causes, and what `careful.yaml` changes:
   2.5 cm in the local costmap.
 - **Initial pose.** The initial pose given to `amcl` is right to within about 0.5 m. At the entrance of the house, the
   scan fits nearly as well 0.8 m beyond the true pose, and the mean that `amcl` publishes lies between the two poses.
-- **Frontiers.** explore_lite measures progress in a straight line, so it may give up a frontier while the robot is
+- **Frontiers.** explore_lite measures progress in a straight line, so it may abandon a frontier while the robot is
   driving around a wall to reach it.
 - **Not explained.** In the maze, `move_base` reports two robots as oscillating although their path is clear. In the
   office, a few robots start in a corner in which nearly every sampled velocity would cause a contact.
