@@ -128,12 +128,14 @@ class Paper:
 
 def _paint(image: bytearray, stroke: Stroke) -> None:
     x, y, end_x, end_y, pen, _ = stroke
+    length = math.hypot(end_x - x, end_y - y)
+    if not length < math.inf:  # a teleport beyond the largest number
+        return
     if max(abs(x), abs(y)) > max(abs(end_x), abs(end_y)):  # measure from the end nearer to the image
         x, y, end_x, end_y = end_x, end_y, x, y
     if pen.width == 1:
         _paint_thin(image, (x, y), (end_x, end_y), pen.colour)
         return
-    length = math.hypot(end_x - x, end_y - y)
     along_x, along_y = ((end_x - x) / length, (end_y - y) / length) if length else (1.0, 0.0)
     half = pen.width / 2
     left, right = _span(x, end_x, half)

@@ -181,7 +181,7 @@ class Turtle:
         before = self._x, self._y
         if len(teleport) == 2:
             linear, angular = teleport
-            self.theta += angular
+            self.theta = _wrapped(self.theta) + angular
             self._x += math.cos(self.theta) * linear
             self._y -= math.sin(self.theta) * linear
         else:

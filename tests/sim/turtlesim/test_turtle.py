@@ -4,7 +4,7 @@ import contextlib
 import math
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from rosmini.sim.turtlesim.paper import Paper, Pen
@@ -78,6 +78,8 @@ def test_numbers_that_are_none_are_refused(wrong):
 
 
 @given(st.lists(st.tuples(anything, anything, anything), max_size=5))
+@example([(0.0, 1e308, 1e308)])  # two turns at the same update, whose sum is infinite
+@example([(1e307, 1e307, 0.0)])  # an infinite number of pixels
 def test_it_stays_inside_whatever_it_is_told(asked):
     turtle, paper = Turtle("t", *START), Paper()
     for update, (a, b, c) in enumerate(asked):
@@ -87,3 +89,4 @@ def test_it_stays_inside_whatever_it_is_told(asked):
         run(turtle, 1, paper, start=update)
         assert 0.0 <= turtle.x <= LIMIT and 0.0 <= turtle.y <= LIMIT and abs(turtle.theta) <= 3.1416
         single(turtle.linear_velocity)
+        paper.pixel(*turtle.pixel)
