@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rosmini import Graph
+from rosmini.core.graph import MessageFactory
 from rosmini.core.graph.observers import history as history_module
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.msgs.sensor_msgs.msg import LaserScan
@@ -94,6 +95,20 @@ def test_each_subscriber_gets_its_own_delivery_of_one_publication(graph):
     delivered = [event for event in recording.events if event.kind == "delivery"]
     assert [event.whom for event in delivered] == ["/a", "/b", "/c"]
     assert {event.cause for event in delivered} == {publication.number}
+
+
+def test_a_message_that_is_made_again_for_a_late_subscriber_has_the_same_cause(graph):
+    recording = graph.record()
+    talker = graph.node("talker").publisher("chatter", String, latch=True)
+    for name in ("early", "late", "later"):
+        graph.node(name).subscriber("chatter", String, lambda _: None)
+        graph.run(0.1)
+        if name == "early":
+            talker.publish(MessageFactory(lambda: String("hello")))
+            graph.run(0.1)
+    (publication,) = recording.history.last("/chatter")
+    delivered = [(event.whom, event.cause) for event in recording.events if event.kind == "delivery"]
+    assert delivered == [(name, publication.number) for name in ("/early", "/late", "/later")]
 
 
 def test_a_handler_acts_on_its_request_and_the_caller_on_the_answer(graph):
