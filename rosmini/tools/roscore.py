@@ -96,10 +96,10 @@ def main(args: argparse.Namespace) -> int:
             raise refusal(graph, where.uri(port), error) from error
         with suppress(KeyboardInterrupt):
             introduce(graph, where, server, with_rosout=not args.core)
-            graph.run()
-        reason = getattr(graph.master, "shutdown_reason", None)
-        if reason is not None:
-            print(reason, flush=True)
+            # `stop` ends only a run that has begun: the reason is looked at, too
+            graph.run(until=lambda: server.shutdown_reason is not None)
+        if server.shutdown_reason is not None:
+            print(server.shutdown_reason, flush=True)
         say_goodbye(with_rosout=not args.core)
         server.close()
     finally:

@@ -53,7 +53,7 @@ def port() -> int:
 def test_it_prints_what_roscore_prints_and_ends_in_order(port: int, tmp_path: Path, ending: signal.Signals) -> None:
     output = tmp_path / "output"
     with roscore(port, output=output) as process:
-        wait_until(lambda: "started core service" in output.read_text(encoding="utf-8"), "/rosout", process)
+        wait_until(lambda: "where it is to be found" in output.read_text(encoding="utf-8"), "/rosout", process)
         run_id = ask(port, "getParam", "/run_id")[2]
         assert ask(port, "getSystemState")[2][0] == [["/rosout_agg", ["/rosout"]]]
         assert ask(port, "getUri")[2] == f"http://localhost:{port}/"
@@ -130,6 +130,27 @@ def test_somebody_shuts_the_master_down(port: int, tmp_path: Path) -> None:
         assert ask(port, "shutdown", "enough for today") == [1, "shutdown", 0]
         assert process.wait(PATIENCE) == 0
     assert "external shutdown request from [/test]: enough for today" in output.read_text(encoding="utf-8")
+
+
+SHUT_DOWN_WHILE_IT_PRINTS = """
+import sys
+from rosmini.tools.main import main
+from rosmini.tools import roscore
+
+def introduce(graph, where, server, *, with_rosout):
+    from xmlrpc.client import ServerProxy
+    with ServerProxy(f"http://127.0.0.1:{server.port}") as master:
+        master.shutdown("/test", "before it runs")
+
+roscore.introduce = introduce
+sys.exit(main(["roscore", *sys.argv[1:]]))
+"""
+
+
+def test_it_is_shut_down_before_it_runs(port: int) -> None:
+    ended = run([sys.executable, "-c", SHUT_DOWN_WHILE_IT_PRINTS, "-p", str(port)], env=environment())
+    assert ended.returncode == 0, ended.stderr
+    assert "external shutdown request from [/test]: before it runs" in ended.stdout
 
 
 def test_with_v_it_shows_what_is_registered_and_set(port: int, tmp_path: Path) -> None:

@@ -85,6 +85,11 @@ class MasterServer:
         """Port on which it listens."""
         return self._server.port
 
+    @property
+    def shutdown_reason(self) -> str | None:
+        """Reason for which a caller has shut the Master down, or None."""
+        return self._master.shutdown_reason
+
     def close(self) -> None:
         """Stop serving; the Master keeps its state. May be called repeatedly."""
         self._server.close()
