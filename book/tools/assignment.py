@@ -25,8 +25,8 @@ NOTE = """\
 # Assignment
 
 Each task is an exercise of *rosmini*, and its chapter explains what you need. A check that says `right` is worth one \
-point. The checks use the seed {seed}: it decides the errors of wheels and sensors, and in the project which door is \
-shut and where the box is. Grading may use other seeds, so do not rely on one run."""
+point. The checks use the seed {seed}: it determines the errors of wheels and sensors, and in the project which door \
+is shut and where the box is. Grading may use other seeds, so do not rely on one run."""
 
 
 class AssignmentError(RosminiError):

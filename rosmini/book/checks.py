@@ -83,7 +83,7 @@ class Script:
 
     @property
     def gaps(self) -> list[int]:
-        """Lines with a bare `...`, where the reader writes; empty if the script is not valid Python."""
+        """Lines with a bare `...`, where the reader is to write; empty if the script is not valid Python."""
         try:
             tree = ast.parse(self.source)
         except SyntaxError:

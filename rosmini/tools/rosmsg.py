@@ -196,4 +196,4 @@ def tool_of(kind: Kind, summary: str) -> Tool:
     return made
 
 
-TOOL = tool_of(MESSAGE, "message types: which there are, and their definitions")
+TOOL = tool_of(MESSAGE, "message types: list them, and show their definitions")

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from rosmini.ros.introspection.nodes import Contact, Description
 
 TOOL = Tool(
-    "rosnode", "nodes: which there are, what they do, whether they answer; end them", example="ping",
+    "rosnode", "nodes: list them, show what they do and whether they answer; end them", example="ping",
     purpose="printing information about ROS Nodes",
 )  # fmt: skip
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
 TOOL = Tool(
-    "rosservice", "services: which there are, of which types, who offers them; call one", example="call",
+    "rosservice", "services: list them, show their types and nodes; call one", example="call",
     purpose="calling and listing ROS Services", overview=Overview(has_heading=False), failure_status=2,
 )  # fmt: skip
 

@@ -6,4 +6,4 @@ from rosmini.ros.introspection.types import SERVICE
 
 from .rosmsg import tool_of
 
-TOOL = tool_of(SERVICE, "service types: which there are, and their definitions")
+TOOL = tool_of(SERVICE, "service types: list them, and show their definitions")

@@ -13,7 +13,7 @@ from . import rostopic_echo, rostopic_list, rostopic_pub, rostopic_rates
 
 TOOL = Tool(
     "rostopic",
-    "topics: which there are, what is published on them, how often; publish on one",
+    "topics: list them, show their messages and rates; publish on one",
     example="echo",
     purpose="printing information about ROS Topics",
 )

@@ -112,7 +112,7 @@ def calibrates(answer: Script, name: str) -> Any:
         return trial.view()
 
 
-# ---- stuck: wheels that spin at an obstacle ----
+# ---- stuck: wheels that spin against an obstacle ----
 
 
 @exercise("stuck", praise="It reports the robot that is stuck at the wall, and no others.")

@@ -193,7 +193,7 @@ class Reader(Loading):
         if "value" in element.attributes and "default" in element.attributes:
             raise element.error("<arg> tag must have one and only one of value/default")
         value, doc = (self.optional(element, scope, each) for each in ("value", "doc"))
-        # like ROS, resolve the default even if a value is given
+        # unlike ROS, skip the default if a value is given: its `$(env NAME)` need not be set then
         default = element.attributes.get("default") if name in known else self.optional(element, scope, "default")
         return name, value, default, doc or ""
 

@@ -224,7 +224,7 @@ class Faults:
         jumps = [node for node in self._jumps if name in ("", node)]
         if name and not (topics or services or jumps):
             known = [*(topic for topic, _ in self._topics), *self._host.transport.cut, *self._jumps]
-            raise FaultError(f"{name} has no fault. {nearest(name, known) or '`list` says which there are.'}")
+            raise FaultError(f"{name} has no fault. {nearest(name, known) or '`list` shows all faults.'}")
         for key in topics:
             del self._topics[key]
         self._host.transport.cut -= services
