@@ -1,4 +1,4 @@
-"""One script, ``tf2_ros_peer.py``, with the real tf2_ros and with ours: clients of buffers, registered types.
+"""One script, ``tf2_ros_peer.py``, with the real tf2_ros and with ours: registered types, the buffer without a node.
 
 Skipped where there is no rospy, unless ROSMINI_REQUIRE_ROS is set.
 """

@@ -1,81 +1,27 @@
-"""A script for tf2_ros's client of buffers and its registry of types; it plays the server itself.
+"""A script for tf2_ros's registry of types and the buffer of tf2_py.
 
 Run by the real one and by ours.
 """
 
 import json
 
-import actionlib
 import rospy
 import tf2_py
 import tf2_ros
 from geometry_msgs.msg import Point, TransformStamped
-from tf2_msgs.msg import LookupTransformAction, LookupTransformResult, TF2Error
 
 rospy.init_node("peer")
 facts = {}
-asked = []
-
-
-def answer(goal):
-    """The frame's name says what to answer."""
-    asked.append(
-        [
-            goal.target_frame, goal.source_frame, goal.source_time.to_nsec(), goal.timeout.to_nsec(),
-            goal.target_time.to_nsec(), goal.fixed_frame, goal.advanced,
-        ]
-    )  # fmt: skip
-    if goal.target_frame == "abort":
-        server.set_aborted(LookupTransformResult())
-        return
-    if goal.target_frame == "sleep":
-        while not server.is_preempt_requested():
-            rospy.sleep(0.01)
-        server.set_preempted()
-        return
-    result = LookupTransformResult()
-    result.transform.child_frame_id = goal.source_frame
-    result.error = TF2Error(int(goal.target_frame), "no. " + goal.target_frame)
-    server.set_succeeded(result)
-
-
-server = actionlib.SimpleActionServer("buffer", LookupTransformAction, answer, auto_start=False)
-client = tf2_ros.BufferClient("buffer", timeout_padding=rospy.Duration(0.5))
-facts["early"] = client.wait_for_server(rospy.Duration(0.05))
-server.start()
-facts["ready"] = client.wait_for_server(rospy.Duration(20))
 
 
 def told(function, *arguments):
     try:
         return function(*arguments)
     except (tf2_py.TransformException, tf2_ros.TypeException, tf2_ros.NotImplementedException) as error:
-        text = str(error) if str(error).startswith("no. ") else ""
-        return [type(error).__name__, text, isinstance(error, tf2_py.TransformException)]
+        return [type(error).__name__, isinstance(error, tf2_py.TransformException)]
 
 
-now, long = rospy.Time(12, 5), rospy.Duration(0.25)
-for _ in range(100):  # a real server's result is lost while it does not count its client yet
-    if isinstance(told(client.lookup_transform, "0", "base", now, long), TransformStamped):
-        break
-asked.clear()
-facts["simple"], facts["full"] = {}, {}
-for name in ("0", "1", "2", "3", "4", "5", "6", "9", "abort", "sleep"):
-    found = told(client.lookup_transform, name, "base", now, long)
-    facts["simple"][name] = [
-        found.child_frame_id if isinstance(found, TransformStamped) else found,
-        name == "sleep" or client.can_transform(name, "base", now),
-    ]
-    if name == "sleep":
-        client.client.cancel_all_goals()
-        rospy.sleep(0.1)
-        continue
-    found = told(client.lookup_transform_full, name, now, "base", rospy.Time(3), "map", long)
-    facts["full"][name] = [
-        found.child_frame_id if isinstance(found, TransformStamped) else found,
-        client.can_transform_full(name, now, "base", rospy.Time(3), "map"),
-    ]
-facts["asked"] = asked
+now = rospy.Time(12, 5)
 
 # ---- things of the script's own, moved and converted ----
 

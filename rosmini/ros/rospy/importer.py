@@ -38,7 +38,7 @@ _ALIASES = {
     "tf": "",
     "tf2_geometry_msgs": "",
     "tf2_py": "",
-    "tf2_ros": "buffer_client buffer_interface buffer_server",
+    "tf2_ros": "buffer_interface",
     "tf2_sensor_msgs": "",
 }
 """Packages of `rosmini.ros.rospy.aliases`, with those of their modules that are separate files."""

@@ -18,8 +18,7 @@ from rosmini.core.tf.errors import (
 )
 from rosmini.ros.rospy.session import any_node, require_node
 
-from . import buffer_client, buffer_interface, buffer_server
-from .buffer_client import BufferClient
+from . import buffer_interface
 from .buffer_interface import (
     BufferInterface,
     ConvertRegistration,
@@ -29,7 +28,6 @@ from .buffer_interface import (
     TypeException,
     convert,
 )
-from .buffer_server import BufferServer
 
 if TYPE_CHECKING:
     from rosmini.core.graph import Node
@@ -37,10 +35,8 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Buffer",
-    "BufferClient",
     "BufferCore",
     "BufferInterface",
-    "BufferServer",
     "ConnectivityException",
     "ConvertRegistration",
     "ExtrapolationException",
@@ -55,9 +51,7 @@ __all__ = [
     "TransformListener",
     "TransformRegistration",
     "TypeException",
-    "buffer_client",
     "buffer_interface",
-    "buffer_server",
     "convert",
 ]
 
@@ -65,8 +59,6 @@ buffer = static_transform_broadcaster = transform_broadcaster = transform_listen
 
 _TYPES = {
     "Header": "std_msgs/Header",
-    "LookupTransformAction": "tf2_msgs/LookupTransformAction",
-    "LookupTransformGoal": "tf2_msgs/LookupTransformGoal",
     "TFMessage": "tf2_msgs/TFMessage",
     "TransformStamped": "geometry_msgs/TransformStamped",
 }
@@ -131,4 +123,5 @@ def __getattr__(name: str) -> Any:
         from rosmini.msgs import message_class
 
         return message_class(_TYPES[name])
-    raise AttributeError(f"module 'tf2_ros' has no attribute {name!r}")
+    hint = ": keep a tf2_ros.Buffer with a TransformListener instead" if name == "BufferClient" else ""
+    raise AttributeError(f"module 'tf2_ros' has no attribute {name!r}{hint}")

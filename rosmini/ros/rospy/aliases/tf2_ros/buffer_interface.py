@@ -1,4 +1,4 @@
-"""``tf2_ros.buffer_interface``: the shared interface of buffers and their clients, and conversions between types."""
+"""``tf2_ros.buffer_interface``: the interface of buffers, and conversions between types."""
 
 # ruff: noqa: ARG002 - the arguments are for derived classes
 
@@ -35,7 +35,7 @@ class NotImplementedException(RosminiError):
 
 
 class BufferInterface:
-    """Interface for looking up transforms, in a local buffer or another node's; derive from it for other sources."""
+    """Interface for looking up transforms; derive from it for sources other than ``Buffer``."""
 
     def __init__(self) -> None:
         self.registration = TransformRegistration()
