@@ -7,7 +7,7 @@ import pytest
 from rosmini_bench import nav_gmapping
 from rosmini_bench.nav_gmapping import Walls
 
-from rosmini.navigation.gmapping import GridSlam, Settings
+from rosmini.navigation.gmapping.slam import GridSlam, Settings
 
 PATH = np.array([(x, 0.0, 0.0) for x in np.linspace(0.0, 4.0, 41)])
 

@@ -18,7 +18,7 @@ from rosmini.core.time import Time
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.msgs.nav_msgs.msg import OccupancyGrid
 from rosmini.msgs.sensor_msgs.msg import Imu
-from rosmini.navigation.hector_mapping import surface
+from rosmini.navigation.hector_mapping.matching import surface
 from rosmini.navigation.hector_mapping.node import HectorMapping
 from rosmini.ros.scripts import rosrun
 

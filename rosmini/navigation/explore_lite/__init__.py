@@ -3,9 +3,3 @@
 `costs` ranks the frontiers; the node stores a map and sends goals to move_base. Frontiers are found by
 `rosmini.navigation.frontier_exploration.search`; the original also shares its search with that package.
 """
-
-from __future__ import annotations
-
-from .costs import Weights, ranked
-
-__all__ = ["Weights", "ranked"]

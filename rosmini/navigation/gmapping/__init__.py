@@ -4,12 +4,3 @@ Grisetti, Stachniss and Burgard, Improved techniques for grid mapping with Rao-B
 Transactions on Robotics, 2007). Each particle is a path with the map that follows from it: `matching` matches a scan
 with a map, `maps` stores all maps without duplicates, and `slam` is the filter; the node is separate.
 """
-
-from __future__ import annotations
-
-from .extent import known, published
-from .maps import SharedMaps
-from .matching import Matcher
-from .slam import GridSlam, Settings
-
-__all__ = ["GridSlam", "Matcher", "Settings", "SharedMaps", "known", "published"]

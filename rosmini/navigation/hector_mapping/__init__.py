@@ -4,12 +4,3 @@ Kohlbrecher, Meyer, von Stryk and Klingauf, A flexible and scalable SLAM system 
 2011). `grid` is a map and its update, `matching` matches a scan with a map, `slam` combines the scales, `scans`
 converts ranges to points; `node` is separate.
 """
-
-from __future__ import annotations
-
-from .grid import OccupancyGrid
-from .matching import Matched, match, surface
-from .scans import Limits, scan_ends
-from .slam import HectorSlam, Settings
-
-__all__ = ["HectorSlam", "Limits", "Matched", "OccupancyGrid", "Settings", "match", "scan_ends", "surface"]

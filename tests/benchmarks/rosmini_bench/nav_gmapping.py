@@ -16,7 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.geometry.poses import Pose, compose, inverse
-from rosmini.navigation.gmapping import GridSlam, Settings, SharedMaps, known
+from rosmini.navigation.gmapping.extent import known
+from rosmini.navigation.gmapping.maps import SharedMaps
+from rosmini.navigation.gmapping.slam import GridSlam, Settings
 
 from . import Measure
 from .nav_drives import drive

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from rosmini.core.geometry.poses import Pose, compose, inverse
 from rosmini.core.tf.rigid import from_yaw
-from rosmini.navigation.hector_mapping import HectorSlam, Limits, Settings, scan_ends
+from rosmini.navigation.hector_mapping.scans import Limits, scan_ends
+from rosmini.navigation.hector_mapping.slam import HectorSlam, Settings
 
 from . import Measure, nav_gmapping
 from .nav_drives import Drive, drive

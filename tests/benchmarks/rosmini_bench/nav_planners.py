@@ -18,9 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.maps import load_map
-from rosmini.navigation.global_planner import GlobalAStar, GlobalDijkstra
-from rosmini.navigation.navfn import NavfnSearch, Search
-from rosmini.navigation.navfn.search import navfn_table
+from rosmini.navigation.global_planner.search import GlobalAStar, GlobalDijkstra
+from rosmini.navigation.navfn.search import NavfnSearch, Search, navfn_table
 
 from . import Measure
 from .sim_growth import exponent

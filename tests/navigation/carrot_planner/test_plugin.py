@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from rosmini.navigation.carrot_planner import nearest_legal_pose
+from rosmini.navigation.carrot_planner.carrot import nearest_legal_pose
 from rosmini.navigation.carrot_planner.plugin import CarrotPlanner
 from rosmini.navigation.nav_core import BaseGlobalPlanner, GoalBlocked, PlanningFailure, planar_pose
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rosmini.navigation.costmap_2d import Costmap2D
-from rosmini.navigation.explore_lite import Weights, ranked
+from rosmini.navigation.explore_lite.costs import Weights, ranked
 from rosmini.navigation.frontier_exploration import find_frontiers
 
 # Free in the middle, unknown left (2 cells, near) and right (8 cells, far).

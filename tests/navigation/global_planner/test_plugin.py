@@ -9,8 +9,8 @@ import pytest
 
 from rosmini.core.dynamic_reconfigure import Client
 from rosmini.core.errors import ParameterError
-from rosmini.navigation.global_planner import GlobalAStar, GlobalDijkstra
 from rosmini.navigation.global_planner.plugin import GlobalPlanner, GlobalPlannerConfig
+from rosmini.navigation.global_planner.search import GlobalAStar, GlobalDijkstra
 from rosmini.navigation.nav_core import NoPath
 
 from ..fake_costmap import planner, points, pose

@@ -7,10 +7,9 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from rosmini.navigation.global_planner import GlobalAStar, GlobalDijkstra
-from rosmini.navigation.global_planner.search import a_star_table, dijkstra_table
+from rosmini.navigation.global_planner.search import GlobalAStar, GlobalDijkstra, a_star_table, dijkstra_table
 from rosmini.navigation.nav_core import PlanningFailure
-from rosmini.navigation.navfn import HIGH
+from rosmini.navigation.navfn.wave import HIGH
 
 from ..grids import crossed, fixed_point, grids, shortest
 

@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.errors import RosminiError
-from rosmini.navigation.gmapping import GridSlam, Settings, known, published
-from rosmini.navigation.gmapping.extent import Extent, first_extent, grown
+from rosmini.navigation.gmapping.extent import Extent, first_extent, grown, known, published
 from rosmini.navigation.gmapping.maps import SIDE
+from rosmini.navigation.gmapping.slam import GridSlam, Settings
 
 
 def test_sizes_that_real_maps_have():

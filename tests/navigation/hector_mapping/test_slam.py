@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from rosmini.core.geometry.poses import compose, inverse
-from rosmini.navigation.hector_mapping import HectorSlam, Settings
+from rosmini.navigation.hector_mapping.slam import HectorSlam, Settings
 
 from .test_matching import room
 

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from rosmini.navigation.nav_core import GoalBlocked, NoPath, OutsideMap, PlanningFailure
 from rosmini.navigation.nav_core.failures import StartBlocked
-from rosmini.navigation.navfn import HIGH, NavfnSearch
-from rosmini.navigation.navfn.search import WaveSearch, navfn_table
+from rosmini.navigation.navfn.search import NavfnSearch, WaveSearch, navfn_table
+from rosmini.navigation.navfn.wave import HIGH
 
 from ..grids import crossed, fixed_point, grids, shortest
 
