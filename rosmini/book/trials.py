@@ -143,7 +143,7 @@ class StageTrial(Trial):
 
     def __init__(self, world: str, *arguments: str) -> None:
         from rosmini.sim.recorder import Recorder
-        from rosmini.sim.stage import StageError
+        from rosmini.sim.stage.errors import StageError
 
         self._begin(is_shown=True)
         with TemporaryDirectory() as folder:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import ParameterError
 from rosmini.msgs import message_class
-from rosmini.sim.robot_state_publisher import read_description
+from rosmini.sim.robot_state_publisher.description import read_description
 
 if TYPE_CHECKING:
     from rosmini.core.graph import Node

@@ -12,7 +12,7 @@ from rosmini.core.errors import RosminiError
 from rosmini.core.maps import GridMap
 from rosmini.sim.motion import Door
 from rosmini.sim.world import Box, Obstacle, World
-from rosmini.sim.worlds import to_map
+from rosmini.sim.worlds.world_map import to_map
 
 
 def drawn(rows):

@@ -10,7 +10,7 @@ from rosmini.core.tf import FrameTree
 from rosmini.core.tf.rigid import rigid
 from rosmini.msgs.geometry_msgs.msg import PoseStamped
 from rosmini.msgs.nav_msgs.msg import OccupancyGrid, Path
-from rosmini.sim.turtlesim import Frame
+from rosmini.sim.turtlesim.frame import Frame
 from rosmini.sim.turtlesim.turtle import STEP_S
 from rosmini.sim.worlds import world
 from rosmini.viz import action_states, byte_map, matplotlib_picture, plot, rqt_graph, sequence_diagram

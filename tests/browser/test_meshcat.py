@@ -16,7 +16,7 @@ from rosmini import Graph
 from rosmini.core.tf import StaticTransformBroadcaster
 from rosmini.msgs.geometry_msgs.msg import PoseStamped
 from rosmini.msgs.nav_msgs.msg import OccupancyGrid
-from rosmini.sim.gazebo import GazeboServer
+from rosmini.sim.gazebo.server import GazeboServer
 from rosmini.sim.models import BURGER, WAFFLE
 from rosmini.sim.recording import Recording
 from rosmini.sim.urdf import load

@@ -9,7 +9,7 @@ import pytest
 
 from rosmini import Graph, rosrun
 from rosmini.msgs.turtlesim.msg import Pose
-from rosmini.sim.turtlesim import Frame
+from rosmini.sim.turtlesim.frame import Frame
 from rosmini.sim.turtlesim.turtle import START, STEP_S, single
 from rosmini.viz.embed import STATIC
 from rosmini.viz.live.loopback import PageServer

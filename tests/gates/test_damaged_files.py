@@ -29,7 +29,8 @@ from rosmini.navigation.nav_core import plugin_files
 from rosmini.ros import launch
 from rosmini.ros.catkin.cfg_file import read_cfg
 from rosmini.ros.catkin.project import read_project
-from rosmini.sim import sdf, stage, urdf
+from rosmini.sim import sdf, urdf
+from rosmini.sim.stage import world_file
 from rosmini.sim.urdf import meshes
 from rosmini.viz.rqt.perspective import Perspective
 from rosmini.viz.rviz.config import Config
@@ -313,7 +314,7 @@ PACKAGES = PackageIndex()
 
 READERS: dict[str, tuple[str, Callable[[Path], object], list[bytes]]] = {
     "SDF": ("a.world", _read_sdf, [SDF, *_assets("turtlebot3_gazebo/worlds/turtlebot3_world.world")]),
-    "Stage": ("a.world", stage.load, [STAGE, *_assets("stage_ros/world/boxes.world")]),
+    "Stage": ("a.world", world_file.load, [STAGE, *_assets("stage_ros/world/boxes.world")]),
     "URDF": ("a.urdf", urdf.load, [URDF]),
     "xacro": ("a.xacro", urdf.load, [XACRO, *_assets("turtlebot3_description/urdf/turtlebot3_burger.urdf.xacro")]),
     "STL": ("a.stl", meshes.read, [STL, _stl()]),

@@ -5,7 +5,7 @@ import pytest
 from rosmini.core.errors import RosminiError
 from rosmini.msgs import message_class
 from rosmini.sim.engine import RobotGone
-from rosmini.sim.gazebo import GazeboServer
+from rosmini.sim.gazebo.server import GazeboServer
 from rosmini.sim.simulator import Simulator
 from rosmini.sim.stage.node import Stageros
 from rosmini.sim.world import Box, Obstacle, World, WorldError

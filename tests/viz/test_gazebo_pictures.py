@@ -10,7 +10,7 @@ pytest.importorskip("matplotlib")
 pytest.importorskip("meshcat")
 
 from rosmini import Graph
-from rosmini.sim.gazebo import GazeboServer
+from rosmini.sim.gazebo.server import GazeboServer
 from rosmini.sim.gazebo.spawning import spawn_text
 from rosmini.sim.urdf.xacro import expand
 

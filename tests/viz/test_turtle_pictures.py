@@ -4,7 +4,7 @@ import xml.etree.ElementTree as ET
 
 import pytest
 
-from rosmini.sim.turtlesim import Frame
+from rosmini.sim.turtlesim.frame import Frame
 from rosmini.sim.turtlesim.turtle import STEP_S
 from rosmini.viz.turtle_pictures import chains, turtle_picture
 from rosmini.viz.view import ViewError

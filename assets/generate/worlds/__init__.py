@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from rosmini.sim.world import World
-from rosmini.sim.worlds import to_map, world
+from rosmini.sim.worlds import world
+from rosmini.sim.worlds.world_map import to_map
 
 from .floor import draw
 from .house import house

@@ -16,7 +16,7 @@ from rosmini.sim.urdf import xacro
 
 if TYPE_CHECKING:
     from rosmini.sim import sdf
-    from rosmini.sim.gazebo import GazeboServer
+    from rosmini.sim.gazebo.server import GazeboServer
     from rosmini.sim.world import Pose
 
 BURGER = "package://turtlebot3_description/urdf/turtlebot3_burger.urdf.xacro"

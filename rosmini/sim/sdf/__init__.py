@@ -1,10 +1,9 @@
 """SDF, the format of Gazebo's worlds and models (http://sdformat.org): reading, and conversion to flat worlds."""
 
-from .convert import converted, to_obstacles, to_world
+from .convert import converted, to_obstacles
 from .document import (
     ORIGIN,
     Pose6,
-    Sdf,
     SdfCollision,
     SdfGeometry,
     SdfInertial,
@@ -23,7 +22,6 @@ from .reader import load
 __all__ = [
     "ORIGIN",
     "Pose6",
-    "Sdf",
     "SdfCollision",
     "SdfError",
     "SdfGeometry",
@@ -39,5 +37,4 @@ __all__ = [
     "load",
     "placed_links",
     "to_obstacles",
-    "to_world",
 ]

@@ -4,9 +4,8 @@
 running one.
 """
 
-from .frame import Frame
 from .node import TurtleSim
 from .turtle import Turtle, TurtleError
 from .windows import window
 
-__all__ = ["Frame", "Turtle", "TurtleError", "TurtleSim", "window"]
+__all__ = ["Turtle", "TurtleError", "TurtleSim", "window"]

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from .errors import UnknownJoint, UrdfError
-from .model import Box, Cylinder, Geometry, Joint, Link, Material, Mesh, Mimic, Origin, Robot, Sphere, Visual
+from .errors import UrdfError
+from .model import Box, Cylinder, Geometry, Joint, Link, Material, Mesh, Robot, Sphere, Visual
 from .reader import load
 
 __all__ = [
@@ -14,11 +14,8 @@ __all__ = [
     "Link",
     "Material",
     "Mesh",
-    "Mimic",
-    "Origin",
     "Robot",
     "Sphere",
-    "UnknownJoint",
     "UrdfError",
     "Visual",
     "load",

@@ -154,7 +154,7 @@ def _noted(note: Note) -> str:
 
 
 def _stage(path: Path) -> FileCheck:
-    from rosmini.sim.stage import load
+    from rosmini.sim.stage.world_file import load
 
     made = load(path)
     return FileCheck(str(path), f"Stage: {_measures(made.world)}", made.notes, made.left_out)

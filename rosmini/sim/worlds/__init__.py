@@ -14,9 +14,8 @@ from rosmini.sim.world import Pose, World, WorldError
 
 from . import rooms
 from .files import kind_of, world_from_file, world_from_map, world_from_sdf
-from .world_map import to_map
 
-__all__ = ["kind_of", "names", "source", "title", "to_map", "world", "world_from_map"]
+__all__ = ["kind_of", "names", "source", "title", "world"]
 
 _MAKERS: Mapping[str, Callable[[], World]] = MappingProxyType(
     {"arena": rooms.arena, "empty": rooms.empty, "room": rooms.room}

@@ -67,9 +67,9 @@ def world_from_file(path: str | os.PathLike[str]) -> World:
     """Return the world in a file. Raises the errors of its kind's reader, and `SdfError` for XML that is not SDF."""
     kind = kind_of(path)
     if kind == "stage":
-        from rosmini.sim import stage
+        from rosmini.sim.stage.world_file import load
 
-        return stage.load(path).world
+        return load(path).world
     if kind == "map":
         return world_from_map(path)
     return world_from_sdf(path)

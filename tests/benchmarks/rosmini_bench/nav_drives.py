@@ -21,8 +21,8 @@ from rosmini.msgs import message_class
 from rosmini.navigation.nav_core.poses import planar_pose
 from rosmini.sim.models import BURGER
 from rosmini.sim.simulator import Simulator
-from rosmini.sim.worlds import to_map
 from rosmini.sim.worlds import world as world_called
+from rosmini.sim.worlds.world_map import to_map
 
 from .nav_goals import DISC, Terrain
 

@@ -22,7 +22,7 @@ from rosmini.core.geometry.poses import Pose
 from rosmini.core.maps import GridMap
 from rosmini.sim.motion import Door
 from rosmini.sim.world import Obstacle, World
-from rosmini.sim.worlds import to_map
+from rosmini.sim.worlds.world_map import to_map
 
 DISC = 0.20
 """Starts and goals are where a disc of this radius [m] gets to."""

@@ -30,8 +30,8 @@ from rosmini.ros.launch import roslaunch
 from rosmini.sim.models import model as model_called
 from rosmini.sim.shapes import Cylinder
 from rosmini.sim.world import Obstacle
-from rosmini.sim.worlds import to_map
 from rosmini.sim.worlds import world as world_called
+from rosmini.sim.worlds.world_map import to_map
 
 from .nav_goals import DISC, Errand, errands, turning, unmapped
 

@@ -6,7 +6,7 @@ import re
 
 from rosmini.core.markup import parse_file
 from rosmini.core.packages import PackageIndex
-from rosmini.sim.gazebo import plugin_class
+from rosmini.sim.gazebo.plugins import plugin_class
 from rosmini.sim.verbs.gz import TOOL
 
 

@@ -7,7 +7,7 @@ import re
 
 import pytest
 
-from rosmini.sim.stage import load
+from rosmini.sim.stage.world_file import load
 
 
 def test_parameters_that_the_text_names_exist(chapter):

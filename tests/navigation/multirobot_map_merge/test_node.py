@@ -11,7 +11,8 @@ from rosmini.core.maps import GridMap
 from rosmini.core.tf import TransformListener
 from rosmini.msgs import message_class
 from rosmini.ros.launch import roslaunch
-from rosmini.sim.worlds import to_map, world
+from rosmini.sim.worlds import world
+from rosmini.sim.worlds.world_map import to_map
 
 GRID = message_class("nav_msgs/OccupancyGrid")
 RATES = ("_merging_rate:=2.0", "_discovery_rate:=2.0")

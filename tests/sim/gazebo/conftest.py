@@ -3,7 +3,7 @@
 import pytest
 
 from rosmini.msgs import message_class, service_class
-from rosmini.sim.gazebo import GazeboServer
+from rosmini.sim.gazebo.server import GazeboServer
 
 DIFF_DRIVE = """
 <gazebo><plugin name="drive" filename="libgazebo_ros_diff_drive.so">

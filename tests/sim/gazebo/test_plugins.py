@@ -7,7 +7,9 @@ from dataclasses import dataclass
 import pytest
 
 from rosmini.core.markup import MarkupError, parse
-from rosmini.sim.gazebo import ModelPlugin, SensorPlugin, Tags, WorldPlugin, plugins, tag
+from rosmini.sim.gazebo import plugins
+from rosmini.sim.gazebo.plugin_tags import Tags, tag
+from rosmini.sim.gazebo.plugins import ModelPlugin, SensorPlugin, WorldPlugin
 
 from .conftest import DIFF_DRIVE, LASER, box, urdf
 
@@ -126,7 +128,7 @@ def test_a_plugin_that_cannot_begin_takes_its_model_away_again(bench):
 
 def test_a_plugin_in_a_file_is_found(bench, tmp_path, monkeypatch, capsys):
     (tmp_path / "nudge.py").write_text(
-        "from rosmini.sim.gazebo import ModelPlugin\n"
+        "from rosmini.sim.gazebo.plugins import ModelPlugin\n"
         "class Nudge(ModelPlugin, filename='libnudge.so'):\n"
         "    def load(self, model, sdf):\n"
         "        model.set_pose((7.0, 0.0, 0.0, 0.0, 0.0, 0.0))\n",

@@ -4,7 +4,9 @@ import pytest
 
 from rosmini.core.errors import ParameterError, ROSException, ScriptError
 from rosmini.ros.scripts import rosrun
-from rosmini.sim.gazebo import GazeboClient, GazeboError, GazeboServer
+from rosmini.sim.gazebo.client import GazeboClient
+from rosmini.sim.gazebo.errors import GazeboError
+from rosmini.sim.gazebo.server import GazeboServer
 from rosmini.sim.recorder import Recorder
 from rosmini.sim.recording import RecordingError
 from rosmini.sim.sdf import SdfError

@@ -2,7 +2,7 @@
 
 import pytest
 
-from rosmini.sim.gazebo import GazeboError
+from rosmini.sim.gazebo.errors import GazeboError
 from rosmini.sim.gazebo.server import GazeboServer
 
 

@@ -6,8 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.tf.rigid import matrix
-from rosmini.sim.robot_state_publisher import Chain, joint_transform
-from rosmini.sim.urdf import Joint, Origin, load
+from rosmini.sim.robot_state_publisher.chain import Chain, joint_transform
+from rosmini.sim.urdf import Joint, load
+from rosmini.sim.urdf.model import Origin
 
 numbers = st.floats(-5, 5)
 vectors = st.tuples(numbers, numbers, numbers)

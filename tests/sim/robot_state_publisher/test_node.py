@@ -10,7 +10,7 @@ from rosmini.core.time import Duration, Time
 from rosmini.msgs.rosgraph_msgs.msg import Clock
 from rosmini.msgs.sensor_msgs.msg import JointState
 from rosmini.msgs.tf2_msgs.msg import TFMessage
-from rosmini.sim.robot_state_publisher import RobotStatePublisher
+from rosmini.sim.robot_state_publisher.node import RobotStatePublisher
 from rosmini.sim.urdf import UrdfError, load
 from rosmini.sim.urdf.xacro import expand
 

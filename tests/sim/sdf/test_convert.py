@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from assets.generate.worlds.sdf_writer import to_sdf
-from rosmini.sim.sdf import SdfError, converted, load, to_obstacles, to_world
+from rosmini.sim.sdf import SdfError, converted, load, to_obstacles
+from rosmini.sim.sdf.convert import to_world
 from rosmini.sim.sdf.material_colours import HOUSE
 from rosmini.sim.world import Box, Compound, Cylinder, Door, Obstacle, Polygon, Sphere, Walk, World
 from rosmini.viz.style import LIGHT

@@ -8,7 +8,8 @@ import pytest
 
 from assets.generate.meshes.shapes import box as solid
 from assets.generate.meshes.shapes import join
-from rosmini.sim.sdf import converted, load, to_obstacles, to_world
+from rosmini.sim.sdf import converted, load, to_obstacles
+from rosmini.sim.sdf.convert import to_world
 from rosmini.sim.world import World
 
 # A table: a top of 1 m by 0.6 m at a height from 0.7 to 0.75 m on one foot of 0.1 m by 0.1 m.

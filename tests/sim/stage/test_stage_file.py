@@ -19,9 +19,10 @@ from rosmini.core.packages import PackageIndex
 from rosmini.sim.engine import Engine
 from rosmini.sim.models import BURGER
 from rosmini.sim.shapes import Box, Compound, Polygon
-from rosmini.sim.stage import StageError, load
+from rosmini.sim.stage.errors import StageError
 from rosmini.sim.stage.parse import parse
 from rosmini.sim.stage.tokens import tokens
+from rosmini.sim.stage.world_file import load
 from rosmini.sim.stage.x11_colours import colour
 
 PATH = Path("a.world")

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from rosmini.sim.stage import load
 from rosmini.sim.stage.odometry import StageOdometry, draw_errors
+from rosmini.sim.stage.world_file import load
 
 
 @pytest.fixture

@@ -13,7 +13,7 @@ from rosmini.core.geometry.angles import yaw_from_quaternion
 from rosmini.core.graph import Graph
 from rosmini.msgs import message_class, service_class
 from rosmini.sim.engine import RobotGone
-from rosmini.sim.stage import StageError
+from rosmini.sim.stage.errors import StageError
 from rosmini.sim.stage.node import Stageros
 
 from ...processes import run

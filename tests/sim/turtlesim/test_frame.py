@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from rosmini.sim.turtlesim import Frame
+from rosmini.sim.turtlesim.frame import Frame
 from rosmini.sim.turtlesim.turtle import STEP_S
 
 

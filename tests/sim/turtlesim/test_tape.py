@@ -4,8 +4,9 @@ import math
 
 import pytest
 
-from rosmini.sim.turtlesim import Frame, TurtleError
+from rosmini.sim.turtlesim import TurtleError
 from rosmini.sim.turtlesim import tape as module
+from rosmini.sim.turtlesim.frame import Frame
 from rosmini.sim.turtlesim.paper import Pen
 from rosmini.sim.turtlesim.tape import Tape
 from rosmini.sim.turtlesim.turtle import STEP_S

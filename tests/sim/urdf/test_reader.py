@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from rosmini.core.packages import PackageIndex
-from rosmini.sim.urdf import Box, Cylinder, Mesh, Sphere, UnknownJoint, UrdfError, load
+from rosmini.sim.urdf import Box, Cylinder, Mesh, Sphere, UrdfError, load
+from rosmini.sim.urdf.errors import UnknownJoint
 
 ARM = """<?xml version="1.0"?>
 <robot name="arm">

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 from rosmini.core.errors import ParameterError, RosminiError
 from rosmini.msgs import message_class, service_class
-from rosmini.sim.velocity_smoother import Limits, VelocitySmoother, towards
 from rosmini.sim.velocity_smoother.node import VelocitySmootherNode
+from rosmini.sim.velocity_smoother.smoother import Limits, VelocitySmoother, towards
 
 Twist = message_class("geometry_msgs/Twist")
 speed = st.floats(-2.0, 2.0)

@@ -7,7 +7,7 @@ import pytest
 from rosmini.core.errors import UsageError
 from rosmini.core.markup import MarkupError
 from rosmini.sim import sdf
-from rosmini.sim.gazebo import GazeboError
+from rosmini.sim.gazebo.errors import GazeboError
 from rosmini.sim.gazebo.topics import FIRST_PORT
 from rosmini.sim.verbs.gz import Gz
 from rosmini.tools.main import main

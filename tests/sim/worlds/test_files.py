@@ -10,7 +10,8 @@ from rosmini.core.errors import RosminiError, UnknownPackage
 from rosmini.core.maps import MapError
 from rosmini.sim.geometry.raycast import raycast
 from rosmini.sim.world import WorldError
-from rosmini.sim.worlds import names, source, world, world_from_map
+from rosmini.sim.worlds import names, source, world
+from rosmini.sim.worlds.files import world_from_map
 
 # The corners of a TurtleBot3 Burger: 138 mm by 178 mm, its axle 32 mm ahead of the middle, and 2 cm more.
 BURGER = np.array([(-0.121, -0.109), (0.057, -0.109), (0.057, 0.109), (-0.121, 0.109)])

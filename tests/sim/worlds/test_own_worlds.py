@@ -9,7 +9,8 @@ import pytest
 from rosmini.core.geometry import polygons
 from rosmini.sim.sdf import SdfError, load
 from rosmini.sim.world import Door, Walk
-from rosmini.sim.worlds import kind_of, names, source, title, to_map, world
+from rosmini.sim.worlds import kind_of, names, source, title, world
+from rosmini.sim.worlds.world_map import to_map
 
 FILES = [name for name in names() if (path := source(name)) is not None and path.suffix == ".world"]
 WIDTH = 0.34

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from assets.generate.worlds.map_file import write_map
 from rosmini.core.maps import load_map
 from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, World, WorldError
-from rosmini.sim.worlds import to_map
+from rosmini.sim.worlds.world_map import to_map
 
 sizes = st.floats(0.05, 1.5)
 places = st.floats(-2, 2)

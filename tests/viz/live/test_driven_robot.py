@@ -5,7 +5,7 @@ import pytest
 
 from rosmini import rosrun
 from rosmini.sim.engine import RobotGone
-from rosmini.sim.gazebo import UnknownEntity
+from rosmini.sim.gazebo.errors import UnknownEntity
 from rosmini.viz.live.live import Link
 from rosmini.viz.live.page import pad_data
 from rosmini.viz.live.teleop import Limits, TeleopError

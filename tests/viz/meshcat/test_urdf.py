@@ -12,7 +12,8 @@ pytest.importorskip("meshcat")
 from rosmini.sim.models import Part, RobotModel, model
 from rosmini.sim.recording import Recording
 from rosmini.sim.shapes import Box, Cylinder
-from rosmini.sim.urdf import UnknownJoint, load
+from rosmini.sim.urdf import load
+from rosmini.sim.urdf.errors import UnknownJoint
 from rosmini.sim.worlds import world
 from rosmini.viz.meshcat import replay_3d, robot_3d, urdf_3d
 from rosmini.viz.meshcat.drawing import DepthBuffer

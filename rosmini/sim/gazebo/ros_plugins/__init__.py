@@ -3,24 +3,6 @@
 http://classic.gazebosim.org/tutorials?tut=ros_gzplugins
 """
 
-from __future__ import annotations
+from . import cameras, drives, imus, joints_and_truth, lasers
 
-from .cameras import BumperPlugin, CameraPlugin, DepthCameraPlugin
-from .drives import DiffDrive, PlanarMove, SkidSteerDrive
-from .imus import ImuModelPlugin, ImuSensorPlugin
-from .joints_and_truth import GroundTruthPlugin, JointStatePublisher
-from .lasers import LaserPlugin
-
-__all__ = [
-    "BumperPlugin",
-    "CameraPlugin",
-    "DepthCameraPlugin",
-    "DiffDrive",
-    "GroundTruthPlugin",
-    "ImuModelPlugin",
-    "ImuSensorPlugin",
-    "JointStatePublisher",
-    "LaserPlugin",
-    "PlanarMove",
-    "SkidSteerDrive",
-]
+__all__ = ["cameras", "drives", "imus", "joints_and_truth", "lasers"]
