@@ -253,8 +253,8 @@ def _recorder(session: Session, name: str, program: Any) -> Recorder | Tape:
 
 
 def _player(given: Values) -> Any:
-    from rosmini.viz.meshcat import replay_3d
-    from rosmini.viz.replay import replay as replay_flat
+    from rosmini.viz.meshcat.runs import replay_3d
+    from rosmini.viz.replay.player import replay as replay_flat
 
     if not given.solid:
         return partial(replay_flat, opens_at_end=given.at_end)

@@ -9,7 +9,9 @@ import numpy as np
 from rosmini.sim.turtlesim.drawings import DRAWINGS
 from rosmini.sim.turtlesim.tape import Line, Tape, Track
 from rosmini.sim.turtlesim.turtle import LIMIT
-from rosmini.viz.replay import Body, ReplayView, Run, Stroke, Strokes, replay
+from rosmini.viz.replay.layers import Stroke, Strokes
+from rosmini.viz.replay.player import ReplayView, replay
+from rosmini.viz.replay.run import Body, Run
 from rosmini.viz.style import hex_colour
 
 THINNER = 0.7

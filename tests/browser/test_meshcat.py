@@ -23,8 +23,12 @@ from rosmini.sim.urdf import load
 from rosmini.sim.urdf.xacro import expand
 from rosmini.sim.worlds import world
 from rosmini.viz.embed import MESHCAT, STATIC, asset_path
-from rosmini.viz.meshcat import replay_3d, robot_3d, urdf_3d
-from rosmini.viz.replay import Body, Grid, Grids, Run, Shape, Shapes
+from rosmini.viz.meshcat.runs import replay_3d
+from rosmini.viz.meshcat.urdf import urdf_3d
+from rosmini.viz.meshcat.view import robot_3d
+from rosmini.viz.replay.grids import Grid, Grids
+from rosmini.viz.replay.layers import Shape, Shapes
+from rosmini.viz.replay.run import Body, Run
 from rosmini.viz.rviz import Scene, turnable
 
 from ..conftest import nightly

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from rosmini.sim.logo import Logo
-from rosmini.viz.replay import Body, Grid, Grids, Run, Shape, Shapes, Stroke, Strokes, replay
-from rosmini.viz.replay.layers import Scans
+from rosmini.viz.replay.grids import Grid, Grids
+from rosmini.viz.replay.layers import Scans, Shape, Shapes, Stroke, Strokes
+from rosmini.viz.replay.player import replay
+from rosmini.viz.replay.run import Body, Run
 
 pytestmark = pytest.mark.browser
 

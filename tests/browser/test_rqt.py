@@ -12,10 +12,12 @@ from rosmini.msgs.std_msgs.msg import String
 from rosmini.msgs.std_srvs.srv import SetBool
 from rosmini.viz.embed import STATIC
 from rosmini.viz.live.panel_link import SCRIPTS, PanelLink
-from rosmini.viz.rqt import DynamicReconfigure, MessagePublisher, ServiceCaller
 from rosmini.viz.rqt.console import LogConsole
 from rosmini.viz.rqt.graph import NodeGraph
 from rosmini.viz.rqt.logger_level import LoggerLevel
+from rosmini.viz.rqt.publisher import MessagePublisher
+from rosmini.viz.rqt.reconfigure import DynamicReconfigure
+from rosmini.viz.rqt.service_caller import ServiceCaller
 
 from .test_keyboard import walk
 

@@ -172,7 +172,7 @@ def test_a_picture_follows_the_theme_of_its_page_and_has_no_id_and_no_link():
 
 
 def test_a_thing_is_shown_by_the_renderer_of_its_kind(monkeypatch):
-    point = EntryPoint("computation_graph", "rosmini.viz.rqt:rqt_graph", show_module.GROUP)
+    point = EntryPoint("computation_graph", "rosmini.viz.rqt.graph:rqt_graph", show_module.GROUP)
     monkeypatch.setattr(show_module, "entry_points", lambda group: EntryPoints([point]).select(group=group))
     assert show_module.show("computation_graph", SYSTEM, mode="nodes_topics_all").text.startswith("rqt_graph: 2 nodes")
     with pytest.raises(show_module.UnknownExtension, match="did you mean computation_graph"):

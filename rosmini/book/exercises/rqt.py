@@ -10,8 +10,9 @@ from rosmini.core.errors import RosminiError
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.msgs.sensor_msgs.msg import LaserScan
 from rosmini.msgs.std_msgs.msg import Float32
-from rosmini.viz.rqt import MessagePublisher, rqt_graph
+from rosmini.viz.rqt.graph import rqt_graph
 from rosmini.viz.rqt.plot import rqt_plot
+from rosmini.viz.rqt.publisher import MessagePublisher
 from rosmini.viz.view import ViewError
 
 MEASURED = ("/odom/twist/twist/angular/z", "/imu/angular_velocity/z")

@@ -1,7 +1,7 @@
 """Display of objects without a dependency on renderers: a renderer is found by name when it is needed.
 
-Renderers are entry points of the group `rosmini.renderers` (`"computation_graph" = "rosmini.viz.rqt:rqt_graph"`), as
-nodes are of `rosmini.nodes`. The parts below `rosmini.viz` therefore need not import it, and other packages can add
+Renderers are entry points of the group `rosmini.renderers` (`computation_graph = "rosmini.viz.rqt.graph:rqt_graph"`),
+as nodes are of `rosmini.nodes`. The parts below `rosmini.viz` therefore need not import it, and other packages can add
 renderers.
 """
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from rosmini.core.plugins import PluginError
 from rosmini.viz.figures import WIDTH
-from rosmini.viz.meshcat import MeshcatView
+from rosmini.viz.meshcat.view import MeshcatView
 from rosmini.viz.style import hex_colour
 from rosmini.viz.view import Picture, View, ViewError
 from rosmini.viz.words import plural

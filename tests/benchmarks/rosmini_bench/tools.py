@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from rosmini import Graph
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.ros.catkin import NewPackage, Workspace, create_package, make
-from rosmini.viz.rqt import rqt_graph
+from rosmini.viz.rqt.graph import rqt_graph
 
 from . import Measure
 

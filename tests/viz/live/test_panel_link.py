@@ -6,7 +6,7 @@ import pytest
 
 from rosmini.core.errors import RosminiError
 from rosmini.viz.live.panel_link import REST, PanelLink
-from rosmini.viz.rqt import MessagePublisher
+from rosmini.viz.rqt.publisher import MessagePublisher
 
 from .pages import Page
 

@@ -20,12 +20,13 @@ from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, Sphere, World
 from rosmini.sim.worlds import world
 from rosmini.viz import ViewError
-from rosmini.viz.meshcat import MeshcatView, replay_3d, robot_3d
 from rosmini.viz.meshcat.drawing import HEIGHT, WIDTH, draw
+from rosmini.viz.meshcat.runs import replay_3d
 from rosmini.viz.meshcat.scene3d import Camera, Scene3D, planar
 from rosmini.viz.meshcat.solids import Ball, Prism, Rod
-from rosmini.viz.meshcat.view import camera_for
-from rosmini.viz.replay import Body, Run, Shape, Shapes
+from rosmini.viz.meshcat.view import MeshcatView, camera_for, robot_3d
+from rosmini.viz.replay.layers import Shape, Shapes
+from rosmini.viz.replay.run import Body, Run
 
 from ..replay import unpacking
 

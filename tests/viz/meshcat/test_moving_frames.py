@@ -14,8 +14,8 @@ from rosmini.core.tf import StaticTransformBroadcaster, TransformBroadcaster
 from rosmini.core.tf.rigid import from_rpy, from_yaw
 from rosmini.sim.recorder import Recorder
 from rosmini.sim.simulator import Simulator
-from rosmini.viz.meshcat import replay_3d
 from rosmini.viz.meshcat.moving_frames import MovingFrames
+from rosmini.viz.meshcat.runs import replay_3d
 
 
 @pytest.fixture(scope="module")

@@ -15,9 +15,11 @@ from rosmini.sim.shapes import Box, Cylinder
 from rosmini.sim.urdf import load
 from rosmini.sim.urdf.errors import UnknownJoint
 from rosmini.sim.worlds import world
-from rosmini.viz.meshcat import replay_3d, robot_3d, urdf_3d
 from rosmini.viz.meshcat.drawing import DepthBuffer
+from rosmini.viz.meshcat.runs import replay_3d
 from rosmini.viz.meshcat.scene3d import OMITTED_COLOURS
+from rosmini.viz.meshcat.urdf import urdf_3d
+from rosmini.viz.meshcat.view import robot_3d
 from rosmini.viz.view import ViewError
 
 from ...conftest import nightly

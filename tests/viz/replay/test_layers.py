@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from rosmini.viz import ViewError
-from rosmini.viz.replay import Shape, Shapes, Stroke, Strokes
-from rosmini.viz.replay.layers import MAX_POINTS, RANGE, Scans, around
+from rosmini.viz.replay.layers import MAX_POINTS, RANGE, Scans, Shape, Shapes, Stroke, Strokes, around
 
 from .unpacking import columns, unpack
 

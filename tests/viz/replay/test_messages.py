@@ -17,10 +17,11 @@ from rosmini.ros.bag.mcap import to_mcap
 from rosmini.sim.recorder import Recorder
 from rosmini.sim.simulator import Simulator
 from rosmini.viz import ViewError
-from rosmini.viz.replay import Grids, Shapes, replay
+from rosmini.viz.replay.grids import Grids
 from rosmini.viz.replay.images import Images
-from rosmini.viz.replay.layers import Scans
+from rosmini.viz.replay.layers import Scans, Shapes
 from rosmini.viz.replay.messages import BagLog, NothingToSee, run_of
+from rosmini.viz.replay.player import replay
 
 from .unpacking import columns
 

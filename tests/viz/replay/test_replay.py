@@ -24,10 +24,10 @@ from rosmini.sim.recording import Moved, Recording, RecordingError
 from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, Sphere, World
 from rosmini.sim.worlds import world
 from rosmini.viz import ViewError, style
-from rosmini.viz.replay import replay
 from rosmini.viz.replay.canvas_data import scene_data
 from rosmini.viz.replay.encode import MAX_SCANS, replay_data
 from rosmini.viz.replay.packing import ANGLE, LENGTH, TIME, pack, whole
+from rosmini.viz.replay.player import replay
 
 from ...recordings import part
 

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from rosmini.viz import ViewError
-from rosmini.viz.replay import Body, Run, Shape, Shapes, Stroke, Strokes, replay
-from rosmini.viz.replay.run import BUDGET
+from rosmini.viz.replay.layers import Shape, Shapes, Stroke, Strokes
+from rosmini.viz.replay.player import replay
+from rosmini.viz.replay.run import BUDGET, Body, Run
 
 from .unpacking import columns
 

@@ -5,8 +5,8 @@ import pytest
 from rosmini.core.time import Time
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.ros.bag import Bag, ROSBagException
-from rosmini.viz.rqt import Rqt
 from rosmini.viz.rqt.bag import BagTimeline
+from rosmini.viz.rqt.window import Rqt
 from rosmini.viz.view import ViewError
 
 

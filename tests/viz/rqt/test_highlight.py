@@ -3,7 +3,7 @@
 import pytest
 
 from rosmini.viz import ViewError
-from rosmini.viz.rqt import rqt_graph
+from rosmini.viz.rqt.graph import rqt_graph
 from rosmini.viz.rqt.graph_state import GraphState
 
 STATE = GraphState.of(

@@ -4,7 +4,7 @@ import pytest
 
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.msgs.std_msgs.msg import String
-from rosmini.viz.rqt import MessagePublisher
+from rosmini.viz.rqt.publisher import MessagePublisher
 from rosmini.viz.view import ViewError
 
 

@@ -11,8 +11,8 @@ from rosmini.core.dynamic_reconfigure import (
     ReconfigurableParameter,
     Server,
 )
-from rosmini.viz.rqt import DynamicReconfigure
 from rosmini.viz.rqt.parts import controls
+from rosmini.viz.rqt.reconfigure import DynamicReconfigure
 from rosmini.viz.view import ViewError
 
 SPEEDS = repr({"enum": [{"name": name, "type": "int", "value": i} for i, name in enumerate(("Slow", "Fast"))]})

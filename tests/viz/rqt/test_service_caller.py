@@ -4,7 +4,7 @@ import pytest
 
 from rosmini.core.errors import ServiceException
 from rosmini.msgs.std_srvs.srv import Empty, SetBool
-from rosmini.viz.rqt import ServiceCaller
+from rosmini.viz.rqt.service_caller import ServiceCaller
 from rosmini.viz.view import ViewError
 
 

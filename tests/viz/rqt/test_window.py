@@ -5,9 +5,9 @@ import json
 import pytest
 
 from rosmini.msgs.std_msgs.msg import Float64
-from rosmini.viz.rqt import Rqt
 from rosmini.viz.rqt.panel import Panel
 from rosmini.viz.rqt.plugin import plugins
+from rosmini.viz.rqt.window import Rqt
 from rosmini.viz.view import ViewError
 
 
