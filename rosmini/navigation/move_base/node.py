@@ -29,7 +29,7 @@ from rosmini.navigation.nav_core import BadGoal, NavigationFailure, TransformMis
 from rosmini.navigation.nav_core.poses import checked_goal
 
 from .checks import check_setup
-from .parameters import MoveBaseConfig, MoveBaseParameters, limits
+from .parameters import MoveBaseConfig, MoveBaseParameters
 from .planning import PlannerLane, offsets_within
 from .plugin_calls import call
 from .plugins import GLOBAL, LOCAL, Planners
@@ -76,7 +76,7 @@ class MoveBase:
             reset_distance=own.conservative_reset_dist,
             circumscribed_radius=radius,
         )
-        self.machine = StateMachine(limits(own), len(self.recovery_behaviors))
+        self.machine = StateMachine(own, len(self.recovery_behaviors))
         self.goal: Any = None
         """The current goal in the global frame (`PoseStamped`), or None."""
         self.plan: Sequence[Any] = ()
@@ -461,7 +461,7 @@ class MoveBase:
         for which in (GLOBAL, LOCAL):
             self._change_planner(which, config)
         self.config = MoveBaseConfig(**{name: value for name, value in config.items() if name != "groups"})
-        self.machine.limits = limits(self.config)
+        self.machine.config = self.config
         return config
 
     def _change_planner(self, which: str, config: Any) -> None:

@@ -10,8 +10,6 @@ from dataclasses import dataclass
 
 from rosmini.core.parameters import Parameters, parameter
 
-from .state_machine import Limits
-
 
 @dataclass(frozen=True)
 class MoveBaseConfig(Parameters):
@@ -68,17 +66,4 @@ class MoveBaseParameters(MoveBaseConfig):
         None,
         "make_plan clears a square of twice this around the robot; by default ~local_costmap/circumscribed_radius",
         unit="m",
-    )
-
-
-def limits(config: MoveBaseConfig) -> Limits:
-    """Return the parameters on which the state machine's decisions depend."""
-    return Limits(
-        config.planner_frequency,
-        config.planner_patience,
-        config.controller_patience,
-        config.max_planning_retries,
-        config.oscillation_timeout,
-        config.oscillation_distance,
-        config.recovery_behavior_enabled,
     )

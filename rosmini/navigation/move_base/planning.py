@@ -81,5 +81,5 @@ class PlannerLane:
             self.machine.plan_found(now * 1e-9)
         elif self.machine.plan_failed(now * 1e-9):
             self._stop()
-        frequency = self.machine.limits.planner_frequency
+        frequency = self.machine.config.planner_frequency
         return max(0, start + round(1e9 / frequency) - now) if frequency > 0 else None

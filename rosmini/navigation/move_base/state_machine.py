@@ -13,9 +13,10 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from dataclasses import dataclass
 from enum import Enum
 from typing import NamedTuple
+
+from .parameters import MoveBaseConfig
 
 HISTORY = 1000
 """Number of latest state changes that are stored."""
@@ -85,19 +86,6 @@ class Transition(NamedTuple):
     after: State
 
 
-@dataclass(frozen=True)
-class Limits:
-    """The parameters on which decisions depend; see `rosmini.navigation.move_base.parameters`."""
-
-    planner_frequency: float = 0.0
-    planner_patience: float = 5.0
-    controller_patience: float = 15.0
-    max_planning_retries: int = -1
-    oscillation_timeout: float = 0.0
-    oscillation_distance: float = 0.5
-    recovery_behavior_enabled: bool = True
-
-
 class Plan(NamedTuple):
     """Decision: run the planner; send no command in this cycle."""
 
@@ -125,11 +113,11 @@ Decision = Plan | Follow | Recover | Abort
 class StateMachine:
     """The state of `move_base`; `step` returns the decision for each control cycle.
 
-    `recoveries` is the number of recovery behaviours; `limits` may be replaced at any time.
+    `recoveries` is the number of recovery behaviours; `config` may be replaced at any time.
     """
 
-    def __init__(self, limits: Limits, recoveries: int) -> None:
-        self.limits = limits
+    def __init__(self, config: MoveBaseConfig, recoveries: int) -> None:
+        self.config = config
         self.recoveries = recoveries
         self.state = State.PLANNING
         self.trigger = Trigger.PLANNING
@@ -174,7 +162,7 @@ class StateMachine:
         self._restart_patience(now)
         if self.wants_plan:
             self._enter(now, Event.PLAN_FOUND, State.CONTROLLING)
-        if self.limits.planner_frequency <= 0:
+        if self.config.planner_frequency <= 0:
             self.wants_plan = False
 
     def plan_failed(self, now: float) -> bool:
@@ -185,8 +173,8 @@ class StateMachine:
         if self.state is not State.PLANNING:
             return False
         self.retries += 1
-        too_often = 0 <= self.limits.max_planning_retries < self.retries
-        if not self.wants_plan or not (now > self.last_plan + self.limits.planner_patience or too_often):
+        too_often = 0 <= self.config.max_planning_retries < self.retries
+        if not self.wants_plan or not (now > self.last_plan + self.config.planner_patience or too_often):
             return False
         self._enter(now, Event.NO_PLAN, State.CLEARING)
         self.wants_plan = False
@@ -200,7 +188,7 @@ class StateMachine:
 
     def robot_at(self, now: float, x: float, y: float) -> None:
         """Handle a new position of the robot [m]: a move of `oscillation_distance` counts as progress."""
-        if self._progress_at is not None and math.dist(self._progress_at, (x, y)) < self.limits.oscillation_distance:
+        if self._progress_at is not None and math.dist(self._progress_at, (x, y)) < self.config.oscillation_distance:
             return
         self._progress_at, self.last_progress = (x, y), now
         if self.trigger is Trigger.OSCILLATION:
@@ -213,14 +201,14 @@ class StateMachine:
             return Plan()
         if self.state is State.CONTROLLING:
             return Follow()
-        if self.limits.recovery_behavior_enabled and self.recovery_index < self.recoveries:
+        if self.config.recovery_behavior_enabled and self.recovery_index < self.recoveries:
             return Recover(self.recovery_index)
         self.wants_plan = False
         return Abort(self.trigger.value, ABORT_LOG[self.trigger])
 
     def check_oscillation(self, now: float) -> bool:
         """Enter CLEARING and return True if the robot has made no progress for too long. Call while CONTROLLING."""
-        timeout = self.limits.oscillation_timeout
+        timeout = self.config.oscillation_timeout
         if not (timeout > 0 and self.last_progress + timeout < now):
             return False
         self._enter(now, Event.OSCILLATING, State.CLEARING)
@@ -235,7 +223,7 @@ class StateMachine:
 
     def command_failed(self, now: float) -> None:
         """Handle the lack of a command, when the robot has to stop: replan, or recover after `controller_patience`."""
-        if now > self.last_command + self.limits.controller_patience:
+        if now > self.last_command + self.config.controller_patience:
             self._enter(now, Event.NO_COMMAND_AT_ALL, State.CLEARING)
             self.trigger = Trigger.CONTROLLING
             return

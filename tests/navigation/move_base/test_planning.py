@@ -1,8 +1,9 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rosmini.navigation.move_base.parameters import MoveBaseConfig
 from rosmini.navigation.move_base.planning import PlannerLane, offsets_within
-from rosmini.navigation.move_base.state_machine import Limits, State, StateMachine
+from rosmini.navigation.move_base.state_machine import State, StateMachine
 
 
 def test_offsets_as_the_original_tries_them():
@@ -26,9 +27,9 @@ def test_no_offset_is_farther_than_the_tolerance(tolerance, resolution):
 class Rig:
     """A planner's lane, and what it did."""
 
-    def __init__(self, node, plan, **limits):
+    def __init__(self, node, plan, **config):
         self.node = node
-        self.machine = StateMachine(Limits(**limits), 2)
+        self.machine = StateMachine(MoveBaseConfig(**config), 2)
         self.goals, self.stops = [], 0
         self._plan = plan
         self.lane = PlannerLane(node, self.machine, self.plan, self.stop)

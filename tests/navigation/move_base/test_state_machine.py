@@ -2,12 +2,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rosmini.navigation.move_base.parameters import MoveBaseConfig
 from rosmini.navigation.move_base.state_machine import (
     TRANSITIONS,
     Abort,
     Event,
     Follow,
-    Limits,
     Plan,
     Recover,
     State,
@@ -16,8 +16,8 @@ from rosmini.navigation.move_base.state_machine import (
 )
 
 
-def machine(recoveries=2, **limits):
-    made = StateMachine(Limits(**limits), recoveries)
+def machine(recoveries=2, **config):
+    made = StateMachine(MoveBaseConfig(**config), recoveries)
     made.start_goal(0.0)
     return made
 
