@@ -10,10 +10,16 @@ from numpy.typing import NDArray
 
 from rosmini.core.geometry.poses import Pose
 from rosmini.core.parameters import parameter
-from rosmini.navigation.base_local_planner.critics import Oscillation, combined_scores, twirling
 from rosmini.navigation.base_local_planner.limits import LocalPlannerLimits
 from rosmini.navigation.base_local_planner.map_grid import MapGrid, grid_from, plan_cells
-from rosmini.navigation.base_local_planner.scored_sampling import Sampling, footprint_scales, roll_out
+from rosmini.navigation.base_local_planner.scored_sampling import (
+    Oscillation,
+    Sampling,
+    combined_scores,
+    footprint_scales,
+    roll_out,
+    twirling,
+)
 from rosmini.navigation.base_local_planner.trajectory import Samples
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
 

@@ -16,11 +16,9 @@ from rosmini.core.parameters import Parameters, parameter
 from rosmini.core.tf import TransformBroadcaster, TransformException, TransformListener
 from rosmini.core.tf.broadcaster import resolve, tf_prefix
 from rosmini.core.tf.messages import from_pose, set_pose
-from rosmini.core.tf.rigid import Rigid, compose
+from rosmini.core.tf.rigid import Rigid, compose, from_yaw, inverse
 from rosmini.core.time import Duration
 from rosmini.msgs import message_class
-
-from .localization import moved_offset, odom_in_map, offset
 
 if TYPE_CHECKING:
     from rosmini.core.graph import Node
@@ -55,7 +53,8 @@ class FakeLocalization:
             resolve(prefix, frame) for frame in (own.global_frame_id, own.odom_frame_id, own.base_frame_id)
         )
         self._tolerance = Duration.from_sec(own.transform_tolerance)
-        self._offset = offset(own.delta_x, own.delta_y, own.delta_yaw)
+        self._offset = from_yaw(-own.delta_x, -own.delta_y, -own.delta_yaw)
+        """The transform applied to true poses. As in the original each delta is subtracted separately."""
         self._waiting: deque[Any] = deque(maxlen=MAX_WAITING)
         self.buffer = TransformListener(node).buffer
         self._broadcaster = TransformBroadcaster(node)
@@ -88,8 +87,9 @@ class FakeLocalization:
     def _localize(self, message: Any, stamp: int) -> None:
         base = compose(self._offset, from_pose(message.pose.pose))
         odom = self.buffer.tree.lookup(self.odom_frame, self.base_frame, stamp).transform
+        odom_in_map = compose(base, inverse(odom))
         self._broadcaster.send_rigid(
-            self.map_frame, self.odom_frame, odom_in_map(base, odom), message.header.stamp + self._tolerance
+            self.map_frame, self.odom_frame, odom_in_map, message.header.stamp + self._tolerance
         )
         self._publish(message, base)
 
@@ -122,4 +122,4 @@ class FakeLocalization:
         except TransformException as error:
             self.node.logwarn(f"Failed to lookup transform! {error}")
             return
-        self._offset = moved_offset(self._offset, from_pose(message.pose.pose), base)
+        self._offset = compose(compose(from_pose(message.pose.pose), inverse(base)), self._offset)

@@ -9,8 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.navigation.amcl.distances import cast_beams, clearances, distances
-from rosmini.navigation.amcl.field import LikelihoodField
+from rosmini.navigation.amcl.field import LikelihoodField, cast_beams, clearances, distances
 
 
 @st.composite

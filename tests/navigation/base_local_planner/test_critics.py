@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rosmini.navigation.base_local_planner.critics import Oscillation, combined_scores, twirling
+from rosmini.navigation.base_local_planner.scored_sampling import Oscillation, combined_scores, twirling
 
 
 def test_who_has_turned_left_and_right_may_not_turn_left_again():
