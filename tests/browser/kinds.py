@@ -16,9 +16,9 @@ from rosmini.sim.worlds import world
 from rosmini.viz import action_states, byte_map, matplotlib_picture, plot, rqt_graph, sequence_diagram
 from rosmini.viz.beams import beams_of
 from rosmini.viz.figures import WIDTH
+from rosmini.viz.rqt.tf_tree import tf_tree
 from rosmini.viz.rviz import Scene
 from rosmini.viz.rviz.picture import still
-from rosmini.viz.tf_trees import tf_tree
 from rosmini.viz.turtle_pictures import turtle_picture
 from rosmini.viz.world_pictures import HEIGHT
 from rosmini.viz.world_pictures import Scene as WorldScene

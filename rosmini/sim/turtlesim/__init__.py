@@ -4,8 +4,7 @@
 running one.
 """
 
-from .node import TurtleSim
+from .node import TurtleSim, window
 from .turtle import Turtle, TurtleError
-from .windows import window
 
 __all__ = ["Turtle", "TurtleError", "TurtleSim", "window"]

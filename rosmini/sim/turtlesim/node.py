@@ -13,10 +13,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from rosmini.core.errors import IllegalName, ParameterError, RosminiError, ServiceRefused
+from rosmini.core.errors import IllegalName, ParameterError, RosminiError, ServiceRefused, nearest
+from rosmini.core.graph import Graph, running_graph
 from rosmini.core.graph.clock import GraphClock
 from rosmini.core.graph.show import has_own_process, show
-from rosmini.core.names import check_name
+from rosmini.core.names import check_name, resolve
 from rosmini.core.parameters import Parameters, parameter
 from rosmini.msgs import message_class, service_class
 
@@ -311,3 +312,32 @@ class TurtleInterface:
     def _teleport_absolute(self, request: Any) -> list[Any]:
         self.sim.at_update(lambda: self.turtle.teleport_absolute(request.x, request.y, request.theta))
         return []
+
+
+def window(name: str | None = None, graph: Graph | None = None) -> TurtleSim:
+    """Return the turtlesim of this graph (the default one if not given) with this name, or the only one.
+
+    >>> from rosmini import Graph, rosrun
+    >>> graph = Graph()
+    >>> _ = rosrun("turtlesim", "turtlesim_node", graph=graph).instance()
+    [INFO] [1000.000000]: Starting turtlesim with node name /turtlesim
+    [INFO] [1000.000000]: Spawning turtle [turtle1] at x=[5.544445], y=[5.544445], theta=[0.000000]
+    >>> list(window(graph=graph).turtles)
+    ['turtle1']
+
+    Raises `TurtleError` if there is no turtlesim of this name, none at all, or more than one.
+    """
+    nodes = (running_graph() if graph is None else graph).nodes
+    found = {name: node.program for name, node in sorted(nodes.items()) if isinstance(node.program, TurtleSim)}
+    if not found:
+        raise TurtleError(
+            "no turtlesim runs in this graph: start one with `rosrun turtlesim turtlesim_node`, and let time pass"
+        )
+    if name is None and len(found) == 1:
+        return next(iter(found.values()))
+    if name is None:
+        raise TurtleError(f"there are {len(found)} windows: say which one is meant, of {', '.join(found)}")
+    full = resolve(name, "/")
+    if full not in found:
+        raise TurtleError(f"no turtlesim is called {full}: {nearest(full, found) or 'there is ' + ', '.join(found)}")
+    return found[full]

@@ -18,7 +18,6 @@ from rosmini.viz.rqt.parts import Control, Drawing, Row, Rows, Words
 from rosmini.viz.rviz import Config, Level, Scene
 from rosmini.viz.rviz.displays.group import Group
 from rosmini.viz.rviz.flat import draw
-from rosmini.viz.rviz.panels import TimePanel, selection
 from rosmini.viz.rviz.picture import alt_text, flat_projection, words
 from rosmini.viz.rviz.primitives import Lines
 from rosmini.viz.rviz.projection import ParallelProjection, Perspective
@@ -52,6 +51,27 @@ ARROWS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, -1), "Arrow
 WORDS = {"press": 2, "move": 2, "release": 2, "wheel": 3, "orbit": NUMBERS}
 """Pointer actions on a picture, and the number of arguments of each."""
 NO_WEBGL = "This browser draws nothing in three dimensions (WebGL): this is the view without perspective."
+
+
+class TimePanel:
+    """ROS time, and the time since the scene started or was reset."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self._begin()
+
+    def _begin(self) -> None:
+        self._ros_ns = self.scene.context.now_ns
+
+    def reset(self) -> None:
+        """Restart: all displays discard what they received."""
+        self.scene.root.attach(self.scene.context)
+        self._begin()
+
+    def words(self) -> str:
+        """Return the panel's text, without wall time, so that it is the same in each run."""
+        now = self.scene.context.now_ns
+        return f"ROS Time: {now / 1e9:.2f}\nROS Elapsed: {(now - self._ros_ns) / 1e9:.2f}"
 
 
 class RVizWindow(Panel):
@@ -146,7 +166,7 @@ class RVizWindow(Panel):
             Rows(("Display", "on", "Status"), tuple(self._rows(self.scene.displays, 0)), "Displays"),
             Words(self.time.words().replace("\n", ", ")),
         ]
-        return [*found, Words(selection(self.selected))] if self.selected else found
+        return [*found, Words("\n".join(each.words() for each in self.selected))] if self.selected else found
 
     def _tool(self, label: str) -> Control:
         return Control(f"tool/{label}", label, "button", label == self.tools.current.label)

@@ -1,6 +1,6 @@
 """Panels as text."""
 
-from rosmini.viz.rviz.panels import TimePanel
+from rosmini.viz.rviz.window import TimePanel
 
 
 def test_the_time_panel_counts_from_the_last_reset(stage):

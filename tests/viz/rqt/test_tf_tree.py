@@ -6,7 +6,7 @@ import pytest
 
 from rosmini.core.tf import FrameTree
 from rosmini.core.tf.rigid import rigid
-from rosmini.viz.tf_trees import tf_tree
+from rosmini.viz.rqt.tf_tree import tf_tree
 from rosmini.viz.view import ViewError
 
 S = 1_000_000_000
