@@ -6,11 +6,13 @@ import asyncio
 import errno
 from functools import partial
 from typing import TYPE_CHECKING, Any
+from urllib.parse import urlsplit
 
 from rosmini.core.errors import RosminiError
 from rosmini.core.graph.master_port import METHODS
 
-from .advertised import Advertised
+from .addresses import is_literal, is_loopback
+from .sockets import Unreached, resolve
 from .xmlrpc_server import EncodedAnswer, XmlRpcServer
 from .xmlrpc_text import NOT_XML, XmlRpcFault, encode_answers, encode_value
 
@@ -30,6 +32,10 @@ MAX_CALLS = 10_000
 
 MAX_BYTES = 16 * 1024 * 1024
 """Maximum total size of the answers of one ``system.multicall`` [bytes]; it ends at the call that exceeds it."""
+
+
+MAX_WARNED = 1_000
+"""Maximum number of nodes with an unreachable address that are remembered, to warn of each only once."""
 
 
 class AddressInUse(RosminiError):
@@ -146,6 +152,47 @@ class MasterServer:
         if method == "shutdown" and reason is not None and self._on_shutdown is not None:
             self._on_shutdown(reason)
         return answer
+
+
+class Advertised:
+    """Warns once about each node that others cannot reach at its advertised address. I/O thread only.
+
+    The Master passes these addresses on to other nodes. A wrong one is the most frequent fault of ROS on several
+    machines: all lists are complete, but no message arrives (http://wiki.ros.org/ROS/NetworkSetup).
+    """
+
+    def __init__(self, warn: Callable[[str], object]) -> None:
+        self._warn = warn
+        self._seen: set[tuple[str, str]] = set()
+        self._tasks: set[asyncio.Task[None]] = set()
+
+    def look(self, caller: str, name: str, uri: str) -> None:
+        """Check a registration that came from the address ``caller``, of a node that advertises ``uri``."""
+        try:
+            host = urlsplit(uri).hostname or ""
+        except ValueError:
+            return
+        if is_loopback(caller) or not host or (name, host) in self._seen or len(self._seen) >= MAX_WARNED:
+            return
+        self._seen.add((name, host))
+        if is_loopback(host):
+            self._warn_unreachable(caller, name, uri, f"on every machine {host} is that machine itself")
+        elif not is_literal(host):
+            task = asyncio.get_running_loop().create_task(self._resolve(caller, name, uri, host))
+            self._tasks.add(task)
+            task.add_done_callback(self._tasks.discard)
+
+    async def _resolve(self, caller: str, name: str, uri: str, host: str) -> None:
+        try:
+            await resolve(host, 0)
+        except Unreached:
+            self._warn_unreachable(caller, name, uri, f"the name {host} does not resolve here")
+
+    def _warn_unreachable(self, caller: str, name: str, uri: str, why: str) -> None:
+        self._warn(
+            f"{name}, on the machine at {caller}, advertises {uri}, but {why}: other machines list its topics and get "
+            f"no message. There, set ROS_IP={caller} and start {name} again."
+        )
 
 
 def _complain(warn: Callable[[str], object], host: str, reason: str) -> None:

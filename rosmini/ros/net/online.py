@@ -10,6 +10,8 @@ from __future__ import annotations
 
 import concurrent.futures
 import sys
+import threading
+import time
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import MasterUnreachable, RosminiError, TransportException
@@ -17,19 +19,18 @@ from rosmini.core.graph.master import Master
 from rosmini.core.graph.master_port import MasterPort
 
 from .addresses import addresses, is_loopback
-from .master_answers import checked, unreachable
+from .io_thread import IoThread, later
 from .master_server import MasterServer
 from .network import Network
-from .pace import Pace
-from .registrations import register_again
-from .remote_master import RemoteMaster, patience
+from .remote_master import RemoteMaster, checked, patience, unreachable
 from .sockets import Unreached
-from .watch import Watch
+from .watch import Watch, register_again
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from rosmini.core.graph import Graph
+    from rosmini.core.graph.event_queue import Timer
     from rosmini.core.graph.transport import Triple
 
     from .addresses import Addresses
@@ -42,6 +43,12 @@ CLOCK = "/clock"
 USE_SIM_TIME = "/use_sim_time"
 ROSCORE = ("/rosdistro", "/rosversion", "/run_id")
 """Parameters that each Master sets itself."""
+
+LAG_NS = 100_000_000
+"""Maximum delay that is made up for by running faster [ns]; after a longer one, time continues from there."""
+
+PERIOD_NS = 10_000_000
+"""Interval at which simulated and real time are compared [ns]."""
 
 
 class _StandingStill(MasterPort):
@@ -65,6 +72,71 @@ class _StandingStill(MasterPort):
         except TransportException as error:
             raise unreachable(self.uri, error) from error
         return checked(self.uri, method, answer)
+
+
+class Pace:
+    """Stops a graph's time, while data from the network is processed, until real time has caught up.
+
+    So other processes can keep up. A live graph keeps its own pace.
+    """
+
+    def __init__(self, graph: Graph, io: IoThread) -> None:
+        self._graph = graph
+        self._scheduler = graph.scheduler
+        self._io = io
+        self._lock = threading.Lock()
+        self._holds = False
+        self._conditions: list[Callable[[], bool]] = []
+        self._timer: Timer | None = None
+
+    def keep(self, condition: Callable[[], bool]) -> None:
+        """Limit the graph's time to real time while ``condition()`` is true. Only from the scheduler's thread."""
+        if not self._conditions:
+            self._begin()
+        self._conditions.append(condition)
+        if self._timer is None:
+            self._next()
+
+    def _begin(self) -> None:
+        self._graph_ns, self._wall_ns = self._scheduler.now_ns(), time.perf_counter_ns()
+
+    def _next(self) -> None:
+        self._timer = self._scheduler.call_at(self._scheduler.now_ns() + PERIOD_NS, self._compare)
+
+    def _compare(self) -> None:
+        self._conditions = [condition for condition in self._conditions if condition()]
+        if not self._conditions:
+            self._timer = None
+            return
+        self._next()
+        if not self._graph.is_live:
+            self._wait()
+
+    def _wait(self) -> None:
+        """Stop the time if it is ahead."""
+        passed = time.perf_counter_ns() - self._wall_ns
+        ahead = self._scheduler.now_ns() - self._graph_ns - passed
+        if ahead < -LAG_NS:
+            self._begin()
+        elif ahead > 0 and not self._holds:
+            self._holds = True
+            self._scheduler.hold()
+            later(self._io.loop, ahead / 1e9, self._release)
+
+    def end(self) -> None:
+        """Stop comparing, and release the time. Only from the scheduler's thread."""
+        self._conditions.clear()
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
+        self._release()
+
+    def _release(self) -> None:
+        """Release the time; may be called repeatedly and from any thread."""
+        with self._lock:
+            held, self._holds = self._holds, False
+        if held:
+            self._scheduler.release()
 
 
 def _is_absent(error: MasterUnreachable) -> bool:
@@ -115,7 +187,8 @@ class Online:
             raise MasterUnreachable(f"{error}. This graph is offline again, as before") from error
         if live:
             self._go_on()
-        self._print_notes()
+        for line in where.notes:
+            sys.stderr.write(f"rosmini: {line}\n")
 
     # -- going online --------------------------------------------------------------------------------------------
 
@@ -205,10 +278,6 @@ class Online:
         if self.graph.notebook and not self.graph.is_live:
             self.graph.live()
             self._is_live_of_ours = True
-
-    def _print_notes(self) -> None:
-        for line in self.where.notes:
-            sys.stderr.write(f"rosmini: {line}\n")
 
     # -- going offline -------------------------------------------------------------------------------------------
 

@@ -1,13 +1,13 @@
-"""A Master in another process, called by a graph: the Master API over XML-RPC."""
+"""A Master in another process, called by a graph: the Master API over XML-RPC, whose answers are validated."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rosmini.core.errors import TransportException
+from rosmini.core.errors import MasterUnreachable, TransportException, TransportTerminated, shown
 from rosmini.core.graph.master_port import MasterPort
 
-from .master_answers import checked, unreachable
+from .sockets import Unreached
 
 if TYPE_CHECKING:
     from rosmini.core.graph.transport import Triple
@@ -51,3 +51,69 @@ class RemoteMaster(MasterPort):
         if self._watch is not None and method.startswith("register"):
             self._watch.begin()
         return triple
+
+
+def checked(uri: str, method: str, answer: Any) -> Triple:
+    """Return a Master's answer. Raises ``MasterUnreachable`` if it is invalid or its value has the wrong type."""
+    if (
+        isinstance(answer, list)
+        and len(answer) == 3
+        and isinstance(answer[0], int)
+        and isinstance(answer[1], str)
+        and (answer[0] != 1 or method not in VALUES or VALUES[method](answer[2]))
+    ):
+        return answer
+    raise _no_master(uri, f"to {method} it said {shown(answer)}")
+
+
+def _is_text(value: Any) -> bool:
+    return isinstance(value, str)
+
+
+def _are_texts(value: Any) -> bool:
+    return isinstance(value, list) and all(map(_is_text, value))
+
+
+def _are_pairs(value: Any) -> bool:
+    return isinstance(value, list) and all(_are_texts(each) and len(each) == 2 for each in value)
+
+
+def _is_state(value: Any) -> bool:
+    """Return True if a value has the form of ``getSystemState``: three tables of names with lists of nodes."""
+    return (
+        isinstance(value, list)
+        and len(value) == 3
+        and all(isinstance(table, list) for table in value)
+        and all(
+            isinstance(row, list) and len(row) == 2 and _is_text(row[0]) and _are_texts(row[1])
+            for table in value
+            for row in table
+        )
+    )
+
+
+VALUES = {
+    **dict.fromkeys(("lookupNode", "lookupService", "getUri"), _is_text),
+    **dict.fromkeys(("registerPublisher", "registerSubscriber", "getParamNames"), _are_texts),
+    **dict.fromkeys(("getPublishedTopics", "getTopicTypes"), _are_pairs),
+    "getSystemState": _is_state,
+}
+"""Expected type of the value in an answer, by method; callers rely on it."""
+
+
+def unreachable(uri: str, error: TransportException) -> MasterUnreachable:
+    """Return the error for a Master that does not answer, with the cause and what to do."""
+    if not isinstance(error, Unreached | TransportTerminated):
+        return _no_master(uri, str(error))
+    hangs = isinstance(error.__cause__, TimeoutError)
+    start = "End it and start it again, if it runs" if hangs else "Start it with `rosmini roscore`"
+    return MasterUnreachable(
+        f"the Master at {uri} does not answer: {error}. {start}, or set ROS_MASTER_URI to the address of one that runs"
+    )
+
+
+def _no_master(uri: str, why: str) -> MasterUnreachable:
+    return MasterUnreachable(
+        f"what answers at {uri} is not a ROS Master: {why}. Set ROS_MASTER_URI to the address that roscore shows "
+        "when it starts."
+    )

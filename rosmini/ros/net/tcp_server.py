@@ -12,9 +12,9 @@ from rosmini.core.errors import DeserializationError, TransportInitError
 from rosmini.core.graph.headers import decode_fields, encode_header
 
 from .frames import FrameReader
-from .service_server import TcpClient
 from .sockets import listen, prepare
 from .tcp_publisher import TcpSender
+from .tcp_service import TcpClient
 from .tcp_stream import Stream
 from .xmlrpc_text import NOT_XML
 

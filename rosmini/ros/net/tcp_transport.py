@@ -12,9 +12,9 @@ from rosmini.core.graph.slave import METHODS
 
 from .frames import FrameReader
 from .io_thread import IoThread, later
-from .service_client import TcpServiceLink
 from .sockets import Unreached, connect
 from .tcp_server import TcpServer
+from .tcp_service import TcpServiceLink
 from .tcp_stream import Stream
 from .tcp_subscriber import TopicInlet
 from .xmlrpc_client import host_and_port

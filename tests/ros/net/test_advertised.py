@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from rosmini.ros.net.advertised import LIMIT, Advertised
+from rosmini.ros.net.master_server import MAX_WARNED, Advertised
 
 
 def told(*registrations: tuple[str, str, str]) -> list[str]:
@@ -53,5 +53,5 @@ def test_of_other_addresses_nothing_is_said(caller: str, uri: str) -> None:
 
 
 def test_only_so_many_are_remembered() -> None:
-    many = [("10.0.0.5", f"/talker{number}", "http://localhost:4000/") for number in range(LIMIT + 5)]
-    assert len(told(*many)) == LIMIT
+    many = [("10.0.0.5", f"/talker{number}", "http://localhost:4000/") for number in range(MAX_WARNED + 5)]
+    assert len(told(*many)) == MAX_WARNED
