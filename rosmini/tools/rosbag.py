@@ -30,10 +30,9 @@ from rosmini.ros.bag import (
     recompress,
     reindex,
 )
-from rosmini.ros.bag.expressions import compile_expression
 from rosmini.ros.bag.info import info_text, info_yaml
 from rosmini.ros.bag.options import Parser, play_options, play_parser, record_options, record_parser
-from rosmini.ros.bag.tools import Copied, Reindexed, TypeChange
+from rosmini.ros.bag.tools import Copied, Reindexed, TypeChange, compile_expression
 
 if TYPE_CHECKING:
     from optparse import Values

@@ -15,7 +15,7 @@ from rosmini.msgs.geometry_msgs.msg import Twist, Vector3
 from rosmini.msgs.nav_msgs.msg import Odometry
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.ros.bag import Bag, FilterError
-from rosmini.ros.bag.expressions import compile_expression
+from rosmini.ros.bag.tools import compile_expression
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -16,12 +16,11 @@ from .errors import (
     ROSBagFormatException,
     ROSBagUnindexedException,
 )
-from .migration import fix_bag
 from .player import Player
 from .recorder import Recorder, RecordOptions
 from .records import Compression
 from .summary import BagMessage, BagMessageWithConnectionHeader
-from .tools import changed_types, filter_bag, recompress, reindex
+from .tools import changed_types, filter_bag, fix_bag, recompress, reindex
 
 __all__ = [
     "Bag",

@@ -7,23 +7,25 @@ graph continues.
 from __future__ import annotations
 
 import re
+import time
 from collections import deque
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import RosminiError
 
+from .bag import Bag
 from .errors import BagFull, ROSBagException
-from .files import BagFiles, base_name
 from .index import Connection, connection
 from .records import Compression, check_compression
 from .writer import CHUNK_THRESHOLD
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from pathlib import Path
 
     from rosmini.core.graph import Node, Subscriber
+    from rosmini.core.time import Time
 
 MEGABYTE = 1024 * 1024
 SYNC_NS = 10**9
@@ -98,6 +100,61 @@ def _pattern(text: str) -> re.Pattern[str]:
         return re.compile(text)
     except re.error as error:
         raise ROSBagException(f"{text!r} is not a regular expression: {error}") from error
+
+
+def _base_name(options: RecordOptions, now: Time, *, simulated: bool) -> str:
+    """Return a recording's path without number and ``.bag``: its name (-O), or its prefix (-o) and the date.
+
+    The date is local, as in ROS, but in UTC in simulated time, where nothing may depend on the machine.
+    """
+    if options.output_name is not None:
+        return options.output_name.removesuffix(".bag")
+    clock = time.gmtime(now.secs) if simulated else time.localtime(now.secs)
+    date = time.strftime("%Y-%m-%d-%H-%M-%S", clock)
+    return f"{options.output_prefix.removesuffix('.bag')}_{date}" if options.output_prefix else date
+
+
+class BagFiles:
+    """Opens the bags of a recording one after another; a file is named ``.active`` until it is closed, as in ROS.
+
+    Args:
+        base: the path without number and ``.bag``; files are numbered, from 0, if the recording is split.
+        options: the options for recording.
+
+    """
+
+    def __init__(self, base: str, options: RecordOptions) -> None:
+        self._base = base
+        self._options = options
+        self._number = 0
+        self.bag: Bag | None = None
+        self.paths: list[Path] = []
+        """The finished files."""
+        self.path = Path()
+        """Final path of the open file."""
+
+    def open(self) -> Bag:
+        """Open the next file. Raises ``OSError`` if that is not possible."""
+        number = f"_{self._number}" if self._options.split else ""
+        self._number += 1
+        self.path = Path(f"{self._base}{number}.bag")
+        self.bag = Bag(self._active, "w", self._options.compression, self._options.chunksize)
+        return self.bag
+
+    @property
+    def _active(self) -> Path:
+        return self.path.with_name(self.path.name + ".active")
+
+    def close(self) -> None:
+        """Close the open file, if any, and give it its final name. Raises ``BagFull`` as ``Bag.close`` does."""
+        bag, self.bag = self.bag, None
+        if bag is None:
+            return
+        try:
+            bag.close()
+        finally:
+            self._active.replace(self.path)
+            self.paths.append(self.path)
 
 
 class Recorder:
@@ -177,12 +234,7 @@ class Recorder:
         if self._ended:
             return
         options, now = self.options, self.node.now()
-        self._files = BagFiles(
-            base_name(options.output_name, options.output_prefix, now, simulated=self.node.graph.simulated),
-            split=options.split,
-            compression=options.compression,
-            chunk_threshold=options.chunksize,
-        )
+        self._files = BagFiles(_base_name(options, now, simulated=self.node.graph.simulated), options)
         if not options.regex:
             for topic in options.topics:
                 self._subscribe(self.node.resolve(topic))

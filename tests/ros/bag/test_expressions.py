@@ -13,7 +13,7 @@ from rosmini.core.expressions import Function, Namespace
 from rosmini.core.time import Time
 from rosmini.msgs import message_class
 from rosmini.ros.bag import FilterError
-from rosmini.ros.bag.expressions import compile_expression
+from rosmini.ros.bag.tools import compile_expression
 
 String = message_class("std_msgs/String")
 SCAN = message_class("sensor_msgs/LaserScan")(ranges=(0.2, 1.5, 3.0))

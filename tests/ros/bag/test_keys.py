@@ -12,7 +12,7 @@ from rosmini.core.graph import Graph
 from rosmini.core.time import Time
 from rosmini.msgs import message_class
 from rosmini.ros.bag import Bag, Player
-from rosmini.ros.bag.keys import Keys, status_line
+from rosmini.ros.bag.nodes import Keys, status_line
 
 from ...processes import PATIENCE
 

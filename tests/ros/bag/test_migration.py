@@ -12,7 +12,7 @@ from rosmini.core.time import Time
 from rosmini.msgs.geometry_msgs.msg import Polygon, PolygonStamped
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.ros.bag import Bag, ROSBagException, fix_bag
-from rosmini.ros.bag.migration import differences, migrated
+from rosmini.ros.bag.tools import differences, migrated
 from rosmini.ros.rospy.aliases.genpy.dynamic import generate_dynamic
 from rosmini.tools.main import main
 
