@@ -13,9 +13,9 @@ from rosmini.core.graph.headers import decode_fields, encode_header
 
 from .frames import FrameReader
 from .sockets import listen, prepare
-from .tcp_publisher import TcpSender
 from .tcp_service import TcpClient
 from .tcp_stream import Stream
+from .tcp_topic import TcpSender
 from .xmlrpc_text import NOT_XML
 
 if TYPE_CHECKING:

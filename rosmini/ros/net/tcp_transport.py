@@ -16,7 +16,7 @@ from .sockets import Unreached, connect
 from .tcp_server import TcpServer
 from .tcp_service import TcpServiceLink
 from .tcp_stream import Stream
-from .tcp_subscriber import TopicInlet
+from .tcp_topic import TopicInlet
 from .xmlrpc_client import host_and_port
 from .xmlrpc_server import XmlRpcServer
 
