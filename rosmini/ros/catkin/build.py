@@ -18,8 +18,7 @@ from rosmini.core.packages import Package, PackageIndex, search_paths
 
 from . import checks, reconfigure
 from .findings import CatkinError, Finding
-from .project import Project
-from .python_setup import RELAY, python_packages
+from .project import Project, python_packages
 from .scripts import wrapper
 from .setup_files import setup_files
 from .workspace import MARKER, TOOL, Workspace, package_folders, python_folder
@@ -28,6 +27,16 @@ STATE = "rosmini.json"
 """The file in the build space that records which outputs were made from which inputs."""
 
 RULE = "~" * 49
+
+RELAY = """
+from pathlib import Path
+
+__path__.insert(0, {folder!r})
+_code = Path({folder!r}, "__init__.py")
+if _code.is_file():
+    exec(compile(_code.read_text(encoding="utf-8"), str(_code), "exec"))
+"""
+"""Text of a Python package in ``devel``: it imports the one in the source space and adds the generated messages."""
 
 
 @dataclass

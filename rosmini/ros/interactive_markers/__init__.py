@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from .client import InteractiveMarkerClient
 from .completion import auto_complete, title_control
-from .errors import InteractiveMarkerException
-from .menu_handler import MenuHandler
+from .menu_handler import InteractiveMarkerException, MenuHandler
 from .server import InteractiveMarkerServer
 
 __all__ = [

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
+from rosmini.core.errors import RosminiError
 from rosmini.msgs import message_class
 
-from .errors import InteractiveMarkerException
 from .server import InteractiveMarkerServer
 
 MenuEntry = message_class("visualization_msgs/MenuEntry")
@@ -17,6 +17,10 @@ InteractiveMarkerFeedback = message_class("visualization_msgs/InteractiveMarkerF
 _NO_CHECKBOX, _CHECKED, _UNCHECKED = 0, 1, 2
 _BOXES = {_NO_CHECKBOX: "", _CHECKED: "[x] ", _UNCHECKED: "[ ] "}
 """Prefix of an entry's title for each check state; RViz draws a box there."""
+
+
+class InteractiveMarkerException(RosminiError):
+    """A request about a marker or a menu cannot be fulfilled."""
 
 
 @dataclass

@@ -8,8 +8,7 @@ from typing import NamedTuple
 from rosmini.core.errors import TransportException
 from rosmini.core.peers import Peers
 
-from .drops import Flow, flows
-from .nodes import namespace_of
+from .nodes import Flow, flows, namespace_of
 
 ID = "/rostopic"
 """Caller name for calls to the Master."""

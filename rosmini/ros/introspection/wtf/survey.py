@@ -6,8 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import ROSException, TransportException
-from rosmini.ros.introspection.drops import Flow, flows
-from rosmini.ros.introspection.nodes import succeed, why_silent
+from rosmini.ros.introspection.nodes import Flow, flows, succeed, why_silent
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

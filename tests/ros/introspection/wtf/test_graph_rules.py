@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from rosmini.ros.introspection.drops import Flow
+from rosmini.ros.introspection.nodes import Flow
 from rosmini.ros.introspection.wtf import graph_rules
 from rosmini.ros.introspection.wtf.graph_rules import RULES
 from rosmini.ros.introspection.wtf.survey import Node, Survey
