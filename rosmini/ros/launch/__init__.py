@@ -14,11 +14,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .by_name import plan_of, roslaunch
     from .errors import LaunchError, Missing, Place
     from .plan import LaunchFile, Machine, NodePlan, Plan, Setting, TestPlan
-    from .reader import find_file, read
-    from .running import Launch
+    from .reader import find_file, plan_of, read
+    from .running import Launch, roslaunch
 
 __all__ = [
     "Launch",
@@ -38,11 +37,10 @@ __all__ = [
 ]
 
 _HOMES = {
-    "by_name": "plan_of roslaunch",
     "errors": "LaunchError Missing Place",
     "plan": "LaunchFile Machine NodePlan Plan Setting TestPlan",
-    "reader": "find_file read",
-    "running": "Launch",
+    "reader": "find_file plan_of read",
+    "running": "Launch roslaunch",
 }
 
 

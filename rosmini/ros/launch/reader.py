@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Container, Mapping, Sequence
+from typing import Any
 
 from rosmini.core.errors import nearest
 from rosmini.core.files import is_file
 from rosmini.core.markup import Element, parse, parse_file
+from rosmini.core.names import is_remapping
 from rosmini.core.packages import PackageIndex
 
 from .errors import LaunchError, Place, not_there
@@ -384,3 +386,23 @@ def _as_executable(package: str, name: str) -> str:
     """Return a hint if the name is not that of a launch file and may be an executable."""
     is_launch_file = name.endswith((".launch", ".xml", ".test"))
     return "" if is_launch_file else f"an executable is started by: rosrun {package} {name}"
+
+
+def plan_of(*words: str | os.PathLike[str], lenient: bool = False, **args: Any) -> Plan:
+    """Return the plan of launch files without running anything.
+
+    Args:
+        words: a package and a launch file in it, or paths; and ``name:=value`` for arguments.
+        lenient: continue if something is missing, see `read`.
+        args: further arguments as keyword arguments.
+
+    Raises:
+        LaunchError: a file is missing or invalid, with file and line; or something else is missing.
+
+    """
+    texts = [os.fspath(word) for word in words]
+    given = dict(word.split(":=", 1) for word in texts if is_remapping(word))
+    given |= {name: str(value).lower() if isinstance(value, bool) else str(value) for name, value in args.items()}
+    index = PackageIndex()
+    files = find_file([word for word in texts if not is_remapping(word)], index)
+    return read(*files, args=given, packages=index, lenient=lenient)

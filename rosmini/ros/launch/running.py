@@ -2,24 +2,27 @@
 
 from __future__ import annotations
 
+import os
 import shlex
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import GraphEnded, ParameterNotSet, RosminiError
+from rosmini.core.graph import Graph, running_graph
 from rosmini.core.packages import PackageIndex
 from rosmini.core.rosparam import ParamClient
 from rosmini.ros.scripts import Console, NodeHandle, NodeSpec, ScriptHandle, ScriptSpec
 from rosmini.ros.scripts.handle import SIGINT_TIMEOUT_S, SIGTERM_TIMEOUT_S, LaneHandle, shell_status
 
 from .processes import environment
+from .reader import plan_of
 
 if TYPE_CHECKING:
-    from rosmini.core.graph import Graph
-
     from .plan import NodePlan, Plan
 
 CALLER = "/roslaunch"
@@ -285,3 +288,31 @@ def on_machine(plan: Plan, node: NodePlan) -> str:
 def log_base(folder: Path | None, name: str) -> str:
     """Return the prefix of a process's log files."""
     return "" if folder is None else str(folder / name.replace("/", "-"))
+
+
+def roslaunch(
+    *words: str | os.PathLike[str], graph: Graph | None = None, console: dict[str, Any] | None = None, **args: Any
+) -> Launch:
+    """Start all nodes of launch files in one graph and return at once; they run while the graph is driven.
+
+    It is `roslaunch` for notebooks and programs (http://wiki.ros.org/roslaunch).
+
+    Args:
+        words: as for `plan_of`.
+        graph: where to run; by default the graph that runs the caller, or else the default graph.
+        console: ``stdin``, ``stdout``, ``stderr``, ``prefix`` and ``capture_output`` of
+            :class:`~rosmini.ros.scripts.Console`.
+        args: arguments of the launch file as keyword arguments.
+
+    Raises:
+        LaunchError: as for `plan_of`.
+
+    """
+    plan = plan_of(*words, **args)
+    used = running_graph() if graph is None else graph
+    out = (console or {}).get("stdout") or sys.stdout
+    warn = partial(print, file=out, flush=True)
+    launch = Launch(plan, used, in_graph(used, **(console or {})), warn=warn)
+    plan.warnings += differences(plan)
+    launch.start()
+    return launch

@@ -6,12 +6,11 @@ package and returns its handle.
 
 from __future__ import annotations
 
-from .by_name import find, rosrun
 from .console import Console
 from .context import current_script
 from .handle import StillRunning
 from .node_handle import NodeHandle, NodeSpec
-from .runner import RunResult, run_scripts, run_source
+from .runner import RunResult, find, rosrun, run_scripts, run_source
 from .script_handle import ScriptHandle, ScriptSpec
 
 __all__ = [
