@@ -13,9 +13,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from .define import define_action, define_message, define_service
 from .importer import enable_own_imports, install, installed, uninstall
 from .message import Message
+from .registry import define_action, define_message, define_service
 from .registry import registry as _registry
 
 __all__ = [

@@ -1,8 +1,9 @@
-"""The classes of all message, service and action types, made from their definitions on first use."""
+"""The classes of all message, service and action types, made from their definitions on first use, or from a text."""
 
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable, Mapping
 from typing import Any, ClassVar
 
 from rosmini.core.errors import UnknownPackage, UnknownType, nearest, shown
@@ -24,6 +25,8 @@ from .sources import PackageSource, Source
 
 MODULE_PREFIX = "rosmini.msgs"
 
+Lookup = Callable[[str], MessageSpec]
+
 
 class Service:
     """Base class of all services, which only have a type, an md5 sum and two message classes."""
@@ -32,6 +35,14 @@ class Service:
     _md5sum: ClassVar[str]
     _request_class: ClassVar[type[Message]]
     _response_class: ClassVar[type[Message]]
+
+
+def _make(
+    spec: MessageSpec, nested: dict[str, type[Message]], owner: Registry, lookup: Lookup, folder: str
+) -> type[Message]:
+    """Make the class for ``spec``, in the module ``folder`` ("msg" or "srv") of its package."""
+    md5sum, text = message_md5(spec, lookup), full_text(spec, lookup)
+    return make_message_class(spec, nested, owner, md5sum, text, f"{MODULE_PREFIX}.{spec.package}.{folder}")
 
 
 def make_service_class(
@@ -184,14 +195,7 @@ class Registry:
         spec = self.definition(name)
         nested = {field.base: self._make_message_class(field.base) for field in spec.fields if not field.builtin}
         folder = "srv" if self._is_half_of_service(spec) else "msg"
-        self._messages[name] = make_message_class(
-            spec,
-            nested,
-            self,
-            message_md5(spec, self.definition),
-            full_text(spec, self.definition),
-            f"{MODULE_PREFIX}.{spec.package}.{folder}",
-        )
+        self._messages[name] = _make(spec, nested, self, self.definition, folder)
         return self._messages[name]
 
     @staticmethod
@@ -309,3 +313,56 @@ def registry() -> Registry:
         if _Holder.current is None:
             _Holder.current = Registry(PackageSource(), is_default=True)
         return _Holder.current
+
+
+def define_message(name: str, text: str) -> type[Any]:
+    """Return a class for the message type "package/Type" with the ``.msg`` text ``text`` (http://wiki.ros.org/msg).
+
+    Each call makes a new class, even for a name that was used before or that has a file, so two versions of a
+    type can exist at the same time. Only types that have files can be nested. Raises
+    :class:`~rosmini.core.errors.DefinitionError` with the line of an error.
+    """
+    return _class_of(parse_message(text, name), "msg")
+
+
+def define_service(name: str, text: str) -> type[Any]:
+    """Return a class for the service type "package/Type" with the ``.srv`` text ``text`` (http://wiki.ros.org/srv).
+
+    Its attributes ``_request_class`` and ``_response_class`` are the two message classes. Raises as
+    :func:`define_message` does.
+    """
+    spec = parse_service(text, name)
+    request, response = _class_of(spec.request, "srv"), _class_of(spec.response, "srv")
+    return make_service_class(spec, request, response, service_md5(spec, registry().definition))
+
+
+def define_action(name: str, text: str) -> tuple[type[Any], type[Any], type[Any], type[Any]]:
+    """Return the classes of the action "package/Type" defined by ``text``, as in an ``.action`` file.
+
+    These are four of the seven: the action, for clients and servers, and its goal, result and feedback. Raises as
+    :func:`define_message` does.
+    """
+    specs = split_action(text, name)
+    own: dict[str, type[Message]] = {}
+    for suffix in ("Goal", "Result", "Feedback", "ActionGoal", "ActionResult", "ActionFeedback", "Action"):
+        own[name + suffix] = _class_of(specs[name + suffix], "msg", own)
+    return own[f"{name}Action"], own[f"{name}Goal"], own[f"{name}Result"], own[f"{name}Feedback"]
+
+
+def _class_of(spec: MessageSpec, folder: str, own: Mapping[str, type[Message]] | None = None) -> type[Message]:
+    """Make a class; its nested types may be in ``own`` or have files."""
+    known, mine, nested = registry(), own or {}, {}
+
+    def definition(name: str) -> MessageSpec:
+        return mine[name]._spec if name in mine else known.definition(name)
+
+    for field in spec.fields:
+        if field.builtin:
+            continue
+        try:
+            nested[field.base] = mine.get(field.base) or known.message_class(field.base)
+        except (UnknownType, UnknownPackage) as error:
+            hint = nearest(field.base.removeprefix(f"{spec.package}/"), BUILTIN_TYPES)
+            raise spec.error(field.line, f"unknown type '{field.base}': {hint or error}") from error
+    measure(spec, lambda base: nested[base]._measure)  # before the md5 sum, whose cost grows with the type
+    return _make(spec, nested, known, definition, folder)

@@ -6,7 +6,7 @@ import pytest
 
 from rosmini.core.errors import DefinitionError
 from rosmini.msgs import message_class
-from rosmini.msgs.define import define_action
+from rosmini.msgs.registry import define_action
 
 FIBONACCI = (
     "#goal definition\nint32 order\n---\n#result definition\nint32[] sequence\n---\n#feedback\nint32[] sequence\n"

@@ -15,7 +15,7 @@ from rosmini.core.errors import TransportInitError, TypeMismatch
 from rosmini.core.graph import Graph
 from rosmini.core.graph.headers import encode_header
 from rosmini.core.graph.publisher import Publication
-from rosmini.msgs.define import define_message
+from rosmini.msgs import define_message
 from rosmini.msgs.rospy_tutorials.srv import AddTwoInts
 from rosmini.msgs.std_msgs.msg import Int32, String
 from rosmini.ros.net import tcp_transport
