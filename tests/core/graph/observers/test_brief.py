@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.core.graph.observers.brief import MAX_TEXT_LENGTH, brief, values
+from rosmini.core.graph.observers.history import MAX_TEXT_LENGTH, brief, values
 from rosmini.msgs.sensor_msgs.msg import LaserScan
 from rosmini.msgs.std_msgs.msg import Empty, Header, String
 
