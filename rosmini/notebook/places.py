@@ -1,4 +1,4 @@
-"""Paths as the book shows them: ``~`` and ``/opt/ros/noetic/share`` on every machine.
+"""Paths and other texts as the book shows them: ``~`` and ``/opt/ros/noetic/share`` on every machine.
 
 A reader's files are in a temporary folder with a different name each time, and rosmini's own packages are where
 pip put them. Outputs show both as on a robot, so that they are equal everywhere.
@@ -9,6 +9,8 @@ from __future__ import annotations
 import io
 import os
 import re
+import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TextIO
 
@@ -24,10 +26,15 @@ SHARE = f"{ROS}/share"
 LISTS = ("CMAKE_PREFIX_PATH", "PYTHONPATH", "ROS_PACKAGE_PATH")
 """Environment variables that contain lists of folders."""
 
+PID = "4242"
+
+OWN_TOOLS = f"{sys.executable} -m rosmini "
+"""Prefix of rosmini's command lines, which ROS's do not have."""
+
+_PID = re.compile(r"(?<=\bPid: )\d+|(?<=\bpid \[)\d+")
 
 _HOME_IN = re.compile(rf"(^|:=|=){re.escape(HOME)}(?=/|$)")
 _SHARE_IN = re.compile(rf"(^|:=|=){re.escape(SHARE)}(?:/([^/:]+)|/?$|(?=/))")
-
 
 _REPEATED = re.compile(rf"^([ ]*{re.escape(SHARE)})(?:\n\1)+$", re.MULTILINE)
 """Repeated lines of one folder: on a robot it is one folder, here there are several."""
@@ -110,6 +117,30 @@ class ShownStream(io.TextIOBase):
     def __getattr__(self, name: str) -> Any:
         """Return an attribute of the target: a kernel sets the cell to which its stream writes."""
         return getattr(self._target, name)
+
+
+def book_text(text: str, places: Places) -> str:
+    """Return a text with the paths, command lines and process numbers of the book."""
+    return _PID.sub(PID, places.shown(text.replace(OWN_TOOLS, "")))
+
+
+class BookErrors:
+    """A context that rewrites the texts of rosmini's errors, and of their causes, when they leave it."""
+
+    def __init__(self, rewrite: Callable[[str], str]) -> None:
+        self._rewrite = rewrite
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
+        while isinstance(error, RosminiError):
+            error.args = tuple(map(self._rewritten, error.args))
+            vars(error).update({name: self._rewritten(value) for name, value in vars(error).items()})
+            error = error.__cause__
+
+    def _rewritten(self, value: Any) -> Any:
+        return self._rewrite(value) if isinstance(value, str) else value
 
 
 def _spellings(path: Path) -> set[Path]:

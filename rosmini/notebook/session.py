@@ -15,10 +15,9 @@ from rosmini.core.graph import Graph, default_graph, set_default_graph
 from rosmini.ros.scripts import current_script
 from rosmini.viz.embed import book_form
 
-from .book_text import BookErrors, book_text
 from .output import CellSink, TypedFeed
 from .package import NotebookPackage
-from .places import Places, ShownStream
+from .places import BookErrors, Places, ShownStream, book_text
 from .runs import Runs
 from .terminal import Terminals
 

@@ -38,7 +38,7 @@ from rosmini.tools.main import COMMANDS, NO_COMMANDS, main
 from rosmini.tools.roscd import located, workspace
 
 from . import shell_lines, shell_words
-from .folder import TemporaryFolder
+from .package import TemporaryFolder
 from .places import ROS, Places, ShownStream
 from .prompt import Prompt, changed, put
 from .shell_words import WORDS, Given, word

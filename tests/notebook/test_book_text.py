@@ -1,8 +1,7 @@
 """What differs from machine to machine has one form in the book."""
 
 from rosmini.core.packages.folders import assets_dir
-from rosmini.notebook.book_text import book_text
-from rosmini.notebook.places import Places
+from rosmini.notebook.places import Places, book_text
 
 
 def test_paths_and_numbers(notebook):

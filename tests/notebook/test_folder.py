@@ -3,13 +3,13 @@
 import sys
 from pathlib import Path
 
-from rosmini.notebook.folder import TemporaryFolder
+from rosmini.notebook.package import TemporaryFolder
 
 from ..processes import kill, start
 
 HOLD = """
 import sys
-from rosmini.notebook.folder import TemporaryFolder
+from rosmini.notebook.package import TemporaryFolder
 folder = TemporaryFolder()
 print(folder.path, flush=True)
 sys.stdin.read()
@@ -31,7 +31,7 @@ def test_a_folder_is_made_and_removed(tmp_path, monkeypatch):
 def test_a_folder_stays_where_every_lock_is_granted(tmp_path, monkeypatch):
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     monkeypatch.setattr("sys.platform", "emscripten")
-    monkeypatch.setattr("rosmini.notebook.folder._take", lambda file: None)
+    monkeypatch.setattr("rosmini.notebook.package._take", lambda file: None)
     folder, other = TemporaryFolder(), TemporaryFolder()
     assert folder.path.is_dir()
     assert other.path.is_dir()
