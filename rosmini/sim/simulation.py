@@ -17,7 +17,8 @@ from rosmini.core.geometry.poses import Pose
 from rosmini.core.graph import Node
 from rosmini.core.graph.show import show
 
-from .devices import DifferentialDrive, RangeDevice
+from .devices.drive import DifferentialDrive
+from .devices.laser import RangeDevice
 from .dragging import drag
 from .engine.engine import Engine, RobotGone
 from .host import Host

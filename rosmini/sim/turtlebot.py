@@ -7,21 +7,13 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from rosmini.core.geometry.poses import Pose
 
-from .devices import (
-    BatteryDevice,
-    CameraDevice,
-    DifferentialDrive,
-    GroundTruth,
-    ImuDevice,
-    JointStates,
-    Laser,
-    PlanarMove,
-    Sensor,
-    SensorStateDevice,
-    Switches,
-    prefixed,
-    within,
-)
+from .devices.board import BatteryDevice, SensorStateDevice, Switches
+from .devices.camera import CameraDevice
+from .devices.drive import DifferentialDrive, GroundTruth, JointStates, PlanarMove
+from .devices.imu import ImuDevice
+from .devices.laser import Laser
+from .devices.namespaces import prefixed, within
+from .devices.sensor import Sensor
 from .host import Device, Host
 from .messages import BASE, BASE_LINK, MAP, ODOM
 from .models import BURGER, CameraModel, RobotModel

@@ -45,7 +45,8 @@ machine_code.Deferral.due = lambda self, work: True
 
 from rosmini.msgs.geometry_msgs.msg import PoseStamped, Twist, Vector3
 from rosmini.navigation.base_local_planner.costmap_model import footprint_cost
-from rosmini.navigation.costmap_2d import Costmap2D, voxels
+from rosmini.navigation.costmap_2d import voxels
+from rosmini.navigation.costmap_2d.costmap import Costmap2D
 from rosmini.navigation.global_planner.search import GlobalAStar
 from rosmini.ros.launch import roslaunch
 from rosmini.sim.engine import Engine, scene

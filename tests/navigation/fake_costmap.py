@@ -7,7 +7,7 @@ import numpy as np
 from rosmini.core.graph import Graph
 from rosmini.core.time import Time
 from rosmini.msgs import message_class
-from rosmini.navigation.costmap_2d import Costmap2D
+from rosmini.navigation.costmap_2d.costmap import Costmap2D
 from rosmini.navigation.nav_core import pose_stamped
 
 

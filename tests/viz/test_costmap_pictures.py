@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rosmini.navigation.costmap_2d import Costmap2D
+from rosmini.navigation.costmap_2d.costmap import Costmap2D
 from rosmini.viz.costmap_pictures import costmap_picture
 from rosmini.viz.view import ViewError
 

@@ -15,8 +15,8 @@ from rosmini.sim.recorder import Recorder
 from rosmini.sim.urdf import xacro
 
 if TYPE_CHECKING:
-    from rosmini.sim import sdf
     from rosmini.sim.gazebo.server import GazeboServer
+    from rosmini.sim.sdf.document import SdfModel
     from rosmini.sim.world import Pose
 
 BURGER = "package://turtlebot3_description/urdf/turtlebot3_burger.urdf.xacro"
@@ -77,7 +77,7 @@ def barrel(answer: Script) -> Any:
         return trial.view()
 
 
-def _check_barrel(model: sdf.SdfModel) -> None:
+def _check_barrel(model: SdfModel) -> None:
     expect(not model.static, "It is static, so it cannot be pushed.", "remove <static>")
     expect(len(model.links) == 1, f"It has {len(model.links)} links, not one.")
     link = model.links[0]

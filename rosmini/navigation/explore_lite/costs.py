@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rosmini.navigation.frontier_exploration import Frontier
+from rosmini.navigation.frontier_exploration.search import Frontier
 
 
 @dataclass(frozen=True)

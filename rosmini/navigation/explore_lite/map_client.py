@@ -10,8 +10,13 @@ import numpy as np
 from rosmini.core.tf import TransformException, TransformListener
 from rosmini.core.time import Time
 from rosmini.msgs import message_class
-from rosmini.navigation.costmap_2d import INSCRIBED_INFLATED_OBSTACLE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D
-from rosmini.navigation.costmap_2d.costmap import Costs
+from rosmini.navigation.costmap_2d.costmap import (
+    INSCRIBED_INFLATED_OBSTACLE,
+    LETHAL_OBSTACLE,
+    NO_INFORMATION,
+    Costmap2D,
+    Costs,
+)
 from rosmini.navigation.costmap_2d.layer import Window
 from rosmini.navigation.nav_core import TransformMissing
 from rosmini.navigation.nav_core.poses import planar_transform

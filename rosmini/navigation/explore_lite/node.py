@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from rosmini.core.actionlib import SimpleActionClient, Status
 from rosmini.core.parameters import Parameters, parameter
 from rosmini.msgs import message_class
-from rosmini.navigation.frontier_exploration import Blacklist, Frontier, find_frontiers, formatted_points
+from rosmini.navigation.frontier_exploration.search import Blacklist, Frontier, find_frontiers, formatted_points
 from rosmini.navigation.nav_core import TransformMissing, pose_stamped
 
 from .costs import Weights, ranked

@@ -4,9 +4,3 @@ Yamauchi, A frontier-based approach for autonomous exploration (CIRA 1997). `sea
 `polygon` is the polygon that a user clicks; a costmap layer (`plugin`), a server (`node`) and a client (`client_node`)
 connect them to the graph.
 """
-
-from __future__ import annotations
-
-from .search import Blacklist, Frontier, find_frontiers, formatted_points, frontier_cells
-
-__all__ = ["Blacklist", "Frontier", "find_frontiers", "formatted_points", "frontier_cells"]

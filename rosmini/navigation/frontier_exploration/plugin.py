@@ -21,7 +21,7 @@ from rosmini.core.parameters import parameter
 from rosmini.core.tf import Buffer, TransformException
 from rosmini.core.time import Time
 from rosmini.msgs import message_class, service_class
-from rosmini.navigation.costmap_2d import FREE_SPACE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D
+from rosmini.navigation.costmap_2d.costmap import FREE_SPACE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D
 from rosmini.navigation.costmap_2d.footprint import points_of
 from rosmini.navigation.costmap_2d.layer import Bounds, CostmapLayer, Window
 from rosmini.navigation.costmap_2d.parameters import LayerConfig

@@ -22,7 +22,7 @@ from rosmini.core.errors import ROSInterruptException, RosminiError
 from rosmini.core.graph.show import show
 from rosmini.core.tf import TransformListener
 from rosmini.msgs import message_class, service_class
-from rosmini.navigation.costmap_2d import FREE_SPACE
+from rosmini.navigation.costmap_2d.costmap import FREE_SPACE
 from rosmini.navigation.costmap_2d.costmap_ros import Costmap2DROS
 from rosmini.navigation.kernels import prepare
 from rosmini.navigation.nav_core import BadGoal, NavigationFailure, TransformMissing, planar_pose

@@ -15,7 +15,8 @@ from rosmini.core.errors import nearest
 from rosmini.core.geometry.poses import Pose, compose, inverse, transform_points
 from rosmini.core.geometry.products import matrix_product, scalar_product
 from rosmini.sim.models import Drive, RobotModel, WheelErrors, hull
-from rosmini.sim.sdf import ORIGIN, Pose6, SdfJoint, SdfModel, SdfPlugin, placed_links, to_obstacles
+from rosmini.sim.sdf import placed_links, to_obstacles
+from rosmini.sim.sdf.document import ORIGIN, Pose6, SdfJoint, SdfModel, SdfPlugin
 from rosmini.sim.sdf.poses import compose as compose6
 from rosmini.sim.sdf.poses import matrix
 from rosmini.sim.shapes import Box, Cylinder, Part, Polygon, Sphere, outline_at, simple_parts

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from rosmini.core.geometry.products import inverse_matrix, matrix_product, scalar_product
 from rosmini.core.markup import Element
 from rosmini.sim import urdf
-from rosmini.sim.sdf import (
+from rosmini.sim.sdf.document import (
     ORIGIN,
     Pose6,
     SdfCollision,

@@ -23,7 +23,8 @@ from rosmini.core.markup import Element
 from rosmini.sim.engine import Engine
 from rosmini.sim.engine.robot import Robot
 from rosmini.sim.host import Host
-from rosmini.sim.sdf import ORIGIN, Pose6, SdfModel, SdfSensor, placed_links
+from rosmini.sim.sdf import placed_links
+from rosmini.sim.sdf.document import ORIGIN, Pose6, SdfModel, SdfSensor
 from rosmini.sim.sdf.poses import compose as compose6
 from rosmini.sim.sdf.poses import pose6
 from rosmini.sim.world import World, WorldError

@@ -18,7 +18,8 @@ from rosmini.core.markup import Element
 from rosmini.sim.dragging import check_room
 from rosmini.sim.engine import Engine
 from rosmini.sim.host import Host
-from rosmini.sim.sdf import ORIGIN, Pose6, SdfLink, SdfModel, SdfPlugin, SdfWorld, converted, placed_links, to_obstacles
+from rosmini.sim.sdf import converted, placed_links, to_obstacles
+from rosmini.sim.sdf.document import ORIGIN, Pose6, SdfLink, SdfModel, SdfPlugin, SdfWorld
 from rosmini.sim.sdf.poses import compose as compose6
 from rosmini.sim.world import Obstacle, World
 

@@ -24,9 +24,9 @@ from rosmini.core.geometry.poses import Pose
 from rosmini.core.graph import Node
 from rosmini.core.packages import SCHEME, PackageIndex, assets_dir
 from rosmini.sim import sdf, worlds
-from rosmini.sim.devices import ClockDevice
+from rosmini.sim.devices.clock import ClockDevice
 from rosmini.sim.recording import Subject, SubjectRobot
-from rosmini.sim.sdf import SdfModel, SdfWorld
+from rosmini.sim.sdf.document import SdfModel, SdfWorld
 from rosmini.sim.sdf.resources import RESOURCE_PATH
 from rosmini.sim.simulation import Simulation
 from rosmini.sim.world import World

@@ -19,7 +19,8 @@ from rosmini.core.graph import Node
 from rosmini.core.markup import parse
 from rosmini.msgs import message_class, service_class
 from rosmini.sim.host import Device, Host, Stamp
-from rosmini.sim.sdf import Pose6, placed_links
+from rosmini.sim.sdf import placed_links
+from rosmini.sim.sdf.document import Pose6
 from rosmini.sim.sdf.poses import compose, from_quaternion, inverse, matrix, quaternion
 
 from .errors import GazeboError, UnknownEntity

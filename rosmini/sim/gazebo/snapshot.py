@@ -12,7 +12,8 @@ from rosmini.core.geometry.angles import normalize_angle
 from rosmini.core.geometry.poses import compose
 from rosmini.core.graph.show import show
 from rosmini.sim.models import RobotModel
-from rosmini.sim.sdf import ORIGIN, Pose6, SdfCollision, SdfVisual, placed_links, to_obstacles
+from rosmini.sim.sdf import placed_links, to_obstacles
+from rosmini.sim.sdf.document import ORIGIN, Pose6, SdfCollision, SdfVisual
 from rosmini.sim.world import Obstacle, World
 
 from .model import Model

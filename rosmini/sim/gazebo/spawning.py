@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rosmini.core.markup import MarkupError, parse
 from rosmini.sim import sdf, urdf
-from rosmini.sim.sdf import Pose6
+from rosmini.sim.sdf.document import Pose6
 
 from .from_urdf import Converted, from_urdf
 from .model import GazeboWorld, Model

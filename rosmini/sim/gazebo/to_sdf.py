@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rosmini.core.markup import Element
-from rosmini.sim.sdf import ORIGIN, Pose6, SdfGeometry, SdfJoint, SdfLink, SdfModel
+from rosmini.sim.sdf.document import ORIGIN, Pose6, SdfGeometry, SdfJoint, SdfLink, SdfModel
 
 VERSION = "1.7"
 

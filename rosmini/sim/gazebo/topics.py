@@ -18,7 +18,7 @@ from typing import Any
 from rosmini.core.errors import nearest
 from rosmini.core.graph.graph import Graph
 from rosmini.sim.host import Device, Host, Stamp
-from rosmini.sim.sdf import Pose6
+from rosmini.sim.sdf.document import Pose6
 
 from .errors import GazeboError
 from .model import Model

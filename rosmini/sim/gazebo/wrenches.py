@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from rosmini.sim.sdf import Pose6
+from rosmini.sim.sdf.document import Pose6
 
 from .errors import GazeboError
 from .model import GazeboWorld, Model

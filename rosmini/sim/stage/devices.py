@@ -13,8 +13,8 @@ from rosmini.core.geometry.angles import normalize_angle
 from rosmini.core.geometry.poses import Pose
 from rosmini.core.graph import MessageFactory
 from rosmini.msgs import message_class
-from rosmini.sim.devices import DifferentialDrive, GroundTruth, OdometryTransforms, RangeDevice
-from rosmini.sim.devices.drive import OdometryReading
+from rosmini.sim.devices.drive import DifferentialDrive, GroundTruth, OdometryReading, OdometryTransforms
+from rosmini.sim.devices.laser import RangeDevice
 from rosmini.sim.host import Device, Host, Stamp
 from rosmini.sim.messages import MakeTransform, fixed_transform, moving_transform, odometry_values
 from rosmini.sim.models import LidarModel

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rosmini.sim.devices import prefixed, within
+from rosmini.sim.devices.namespaces import prefixed, within
 
 from .robots import StageRobot
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rosmini.core.errors import nearest
 from rosmini.core.geometry.poses import Pose
-from rosmini.sim.devices import DifferentialDrive
+from rosmini.sim.devices.drive import DifferentialDrive
 from rosmini.sim.engine import Engine
 from rosmini.sim.engine.robot import Robot
 from rosmini.sim.models import RobotModel

@@ -10,7 +10,7 @@ import numpy as np
 from rosmini.core.geometry.polygons import area
 from rosmini.core.geometry.products import matrix_product, norm
 from rosmini.sim.gazebo.snapshot import ShownLink, ShownModel
-from rosmini.sim.sdf import SdfGeometry, SdfVisual
+from rosmini.sim.sdf.document import SdfGeometry, SdfVisual
 from rosmini.sim.sdf.poses import matrix
 from rosmini.sim.urdf import Box, Cylinder, Sphere
 from rosmini.sim.urdf.meshes import Surface, read

@@ -3,7 +3,7 @@ from types import SimpleNamespace
 import pytest
 
 from rosmini.core.time import Time
-from rosmini.navigation.costmap_2d import Costmap2D
+from rosmini.navigation.costmap_2d.costmap import Costmap2D
 from rosmini.navigation.nav_core import RecoveryBehavior, TransformMissing, pose_stamped
 
 

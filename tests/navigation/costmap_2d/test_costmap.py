@@ -9,8 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.navigation.costmap_2d import NO_INFORMATION, Costmap2D
-from rosmini.navigation.costmap_2d.costmap import CostmapError, fill, outline_spans
+from rosmini.navigation.costmap_2d.costmap import NO_INFORMATION, Costmap2D, CostmapError, fill, outline_spans
 from rosmini.navigation.costmap_2d.rays import line_cells
 
 CELLS = st.tuples(st.integers(-30, 30), st.integers(-30, 30))

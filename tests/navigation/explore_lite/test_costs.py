@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rosmini.navigation.costmap_2d import Costmap2D
+from rosmini.navigation.costmap_2d.costmap import Costmap2D
 from rosmini.navigation.explore_lite.costs import Weights, ranked
-from rosmini.navigation.frontier_exploration import find_frontiers
+from rosmini.navigation.frontier_exploration.search import find_frontiers
 
 # Free in the middle, unknown left (2 cells, near) and right (8 cells, far).
 MAP = np.full((8, 40), 254, dtype=np.uint8)

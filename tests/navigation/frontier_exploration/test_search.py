@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from rosmini.navigation.costmap_2d import Costmap2D
-from rosmini.navigation.frontier_exploration import Blacklist, find_frontiers, frontier_cells
+from rosmini.navigation.costmap_2d.costmap import Costmap2D
+from rosmini.navigation.frontier_exploration.search import Blacklist, find_frontiers, frontier_cells
 
 COSTS = {".": 0, "?": 255, "#": 254, "i": 253, "o": 100}
 

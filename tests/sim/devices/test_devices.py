@@ -9,17 +9,12 @@ import pytest
 
 from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
-from rosmini.sim.devices import (
-    Bumper,
-    CameraDevice,
-    DifferentialDrive,
-    GroundTruth,
-    ImuDevice,
-    JointStates,
-    Laser,
-    PlanarMove,
-)
 from rosmini.sim.devices.board import bumper_bits
+from rosmini.sim.devices.bumper import Bumper
+from rosmini.sim.devices.camera import CameraDevice
+from rosmini.sim.devices.drive import DifferentialDrive, GroundTruth, JointStates, PlanarMove
+from rosmini.sim.devices.imu import ImuDevice
+from rosmini.sim.devices.laser import Laser
 from rosmini.sim.engine import Engine
 from rosmini.sim.host import Host
 from rosmini.sim.models import BURGER, CameraModel

@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 
-from rosmini.sim.devices import Laser, Sensor
+from rosmini.sim.devices.laser import Laser
+from rosmini.sim.devices.sensor import Sensor
 from rosmini.sim.models import LidarModel
 
 CONE = LidarModel("cone", (0.05, 0.0, 0.1), 31, 10.0, 0.02, 4.0, noise=0.0, angle_min=-0.26, angle_max=0.26)

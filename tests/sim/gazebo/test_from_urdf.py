@@ -10,7 +10,7 @@ from rosmini.sim import urdf as urdf_package
 from rosmini.sim.gazebo.body import Body
 from rosmini.sim.gazebo.from_urdf import from_urdf
 from rosmini.sim.gazebo.to_sdf import to_sdf
-from rosmini.sim.sdf import ORIGIN, SdfGeometry, SdfLink, SdfModel, SdfVisual
+from rosmini.sim.sdf.document import ORIGIN, SdfGeometry, SdfLink, SdfModel, SdfVisual
 
 from .conftest import urdf
 

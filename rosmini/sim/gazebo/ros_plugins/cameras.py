@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from rosmini.core.markup import Element
-from rosmini.sim.devices import Bumper, CameraDevice
+from rosmini.sim.devices.bumper import Bumper
+from rosmini.sim.devices.camera import CameraDevice
 from rosmini.sim.gazebo.errors import GazeboError
 from rosmini.sim.gazebo.model import Sensor
 from rosmini.sim.gazebo.plugin_tags import Tags, tag

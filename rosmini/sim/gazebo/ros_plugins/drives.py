@@ -9,8 +9,8 @@ from typing import Any, ClassVar
 
 from rosmini.core.markup import Element
 from rosmini.msgs import message_class
-from rosmini.sim import devices
-from rosmini.sim.devices import DifferentialDrive, JointStates, OdometryTransforms, one_of
+from rosmini.sim.devices.drive import DifferentialDrive, JointStates, OdometryTransforms, one_of
+from rosmini.sim.devices.drive import PlanarMove as PlanarMoveDevice
 from rosmini.sim.gazebo.body import Body
 from rosmini.sim.gazebo.model import Model
 from rosmini.sim.gazebo.plugin_tags import Tags, tag
@@ -233,7 +233,7 @@ class PlanarMove(Drive, filename="libgazebo_ros_planar_move.so"):
         tags = PlanarMoveTags.read(sdf, lambda _: None)
         names = RosNames(model, sdf)
         options = self.options(names, tags)
-        move = devices.PlanarMove(self.world.host, model.name, timeout=max(0.0, tags.timeout), **options)
+        move = PlanarMoveDevice(self.world.host, model.name, timeout=max(0.0, tags.timeout), **options)
         self.device = self.add(move)
 
 

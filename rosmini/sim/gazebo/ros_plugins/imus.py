@@ -29,13 +29,13 @@ from rosmini.core.markup import Element
 from rosmini.core.tf import rigid
 from rosmini.core.tf.rigid import IDENTITY, Rigid
 from rosmini.msgs import service_class
-from rosmini.sim.devices import ImuDevice
+from rosmini.sim.devices.imu import ImuDevice
 from rosmini.sim.gazebo.model import Model, Sensor
 from rosmini.sim.gazebo.plugin_tags import Tags, tag
 from rosmini.sim.gazebo.plugins import ModelPlugin, SensorPlugin
 from rosmini.sim.messages import diagonal
 from rosmini.sim.models import ImuModel
-from rosmini.sim.sdf import ORIGIN, Pose6
+from rosmini.sim.sdf.document import ORIGIN, Pose6
 from rosmini.sim.sdf.parts import number
 
 from .drives import rate_of

@@ -9,11 +9,12 @@ from typing import Any
 import numpy as np
 
 from rosmini.core.markup import Element
-from rosmini.sim.devices import GroundTruth, JointStates, Sensor
+from rosmini.sim.devices.drive import GroundTruth, JointStates
+from rosmini.sim.devices.sensor import Sensor
 from rosmini.sim.gazebo.model import WORLD_FRAMES, Model
 from rosmini.sim.gazebo.plugin_tags import Tags, tag
 from rosmini.sim.gazebo.plugins import ModelPlugin
-from rosmini.sim.sdf import Pose6
+from rosmini.sim.sdf.document import Pose6
 from rosmini.sim.sdf.poses import compose, inverse, quaternion
 
 from .drives import rate_of

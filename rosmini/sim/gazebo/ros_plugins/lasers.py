@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from rosmini.core.markup import Element
-from rosmini.sim.devices import Laser
+from rosmini.sim.devices.laser import Laser
 from rosmini.sim.gazebo.errors import GazeboError
 from rosmini.sim.gazebo.model import Sensor
 from rosmini.sim.gazebo.plugin_tags import Tags, tag

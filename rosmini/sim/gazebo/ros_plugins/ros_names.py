@@ -5,7 +5,7 @@ from __future__ import annotations
 from rosmini.core.graph import Node
 from rosmini.core.markup import Element
 from rosmini.core.names import check_name
-from rosmini.sim.devices import prefixed, within
+from rosmini.sim.devices.namespaces import prefixed, within
 from rosmini.sim.gazebo.model import Model
 
 
