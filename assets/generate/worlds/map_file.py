@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from rosmini.core.maps import GridMap
-from rosmini.core.maps.map_saving import pixels_of
+from rosmini.core.maps.map_io import pixels_of
 
 
 def write_map(grid: GridMap, yaml_path: Path) -> list[Path]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from .grid_map import GridMap, MapDataError, MapError, MapMetadataError, MapMissing
-from .map_io import load_map, map_file
-from .map_saving import save_map
+from .map_io import load_map, map_file, save_map
 
 __all__ = ["GridMap", "MapDataError", "MapError", "MapMetadataError", "MapMissing", "load_map", "map_file", "save_map"]

@@ -1,4 +1,4 @@
-"""ROS's map files: a YAML file with the metadata, and an image with one pixel per cell.
+"""ROS's map files, read and written: a YAML file with the metadata, and an image with one pixel per cell.
 
 The fields and colours are described on http://wiki.ros.org/map_server, sections 1.1 to 1.3. Where that page is silent,
 this follows map_server's image loader: alpha is averaged with the colours in the mode `trinary`, and means "unknown" if
@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from rosmini.core import files, images
 from rosmini.core.errors import nearest, shown
 
-from .grid_map import FREE, OCCUPIED, UNKNOWN, GridMap, MapDataError, MapMetadataError, MapMissing
+from .grid_map import FREE, OCCUPIED, UNKNOWN, GridMap, MapDataError, MapError, MapMetadataError, MapMissing
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -39,6 +39,12 @@ MAX_YAML_BYTES = 1_000_000
 
 MIN_CELL_M, MAX_MAP_M = 1e-6, 1e9
 """Minimum size of a cell and maximum size of a map [m]; other values are mistakes and cause overflows."""
+
+BLACK, GREY, WHITE = 0, 205, 254
+"""Pixels written for occupied, unknown and free. 205 is barely unknown: its p is 0.196078, and free_thresh is 0.196."""
+
+OCCUPIED_FROM, FREE_TO = 65, 25
+"""Thresholds for writing [%]: cells are occupied from the first up, free from 0 to the second, otherwise unknown."""
 
 
 @dataclass(frozen=True)
@@ -320,3 +326,40 @@ def _cells(pixels: NDArray[np.uint8], fields: Fields) -> NDArray[np.int8]:
     cells[is_free] = FREE
     cells[is_occupied] = OCCUPIED
     return cells
+
+
+def pixels_of(occupancy: NDArray[np.int8], occupied: int = OCCUPIED_FROM, free: int = FREE_TO) -> NDArray[np.uint8]:
+    """Return the pixels (h, w), row 0 at the top, for cells (h, w), row 0 at the bottom; thresholds in per cent."""
+    values = np.arange(-128, 128)
+    table = np.select([(values >= 0) & (values <= free), values >= occupied], [WHITE, BLACK], GREY).astype(np.uint8)
+    pixels: NDArray[np.uint8] = np.roll(table, 128)[occupancy[::-1].view(np.uint8)]
+    return pixels
+
+
+def save_map(
+    grid: GridMap, name: str | os.PathLike[str], *, occupied: int = OCCUPIED_FROM, free: int = FREE_TO
+) -> tuple[Path, Path]:
+    """Write a map to NAME.pgm and NAME.yaml, as `map_saver` does; return their paths, the YAML file's first.
+
+    The files are the same as map_saver's, byte for byte, with one exception. In `maps/house.yaml`, map_saver calls the
+    image `maps/house.pgm`, which map_server then looks for in `maps/maps`; this function calls it `house.pgm`. An
+    absolute path stays absolute.
+
+    Numbers have six decimals, as in map_saver. Raises `MapError` if a file cannot be written.
+    """
+    yaml, image = Path(f"{os.fspath(name)}.yaml"), Path(f"{os.fspath(name)}.pgm")
+    height, width = grid.occupancy.shape
+    x, y, yaw = grid.origin
+    head = f"P5\n# CREATOR: map_saver.cpp {grid.resolution:.3f} m/pix\n{width} {height}\n255\n"
+    numbers = f"resolution: {grid.resolution:f}\norigin: [{x:f}, {y:f}, {yaw:f}]\n"
+    named = image if image.is_absolute() else image.name
+    fields = f"image: {named}\n{numbers}negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n\n"
+    for path, data in (
+        (image, head.encode() + pixels_of(grid.occupancy, occupied, free).tobytes()),
+        (yaml, fields.encode()),
+    ):
+        try:
+            path.write_bytes(data)
+        except OSError as error:
+            raise MapError(f"Couldn't save map file to {path}: {error.strerror}") from error
+    return yaml, image

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import UsageError
 from rosmini.core.maps.grid_map import GridMap, MapError
-from rosmini.core.maps.map_saving import FREE_TO, OCCUPIED_FROM, save_map
+from rosmini.core.maps.map_io import FREE_TO, OCCUPIED_FROM, save_map
 from rosmini.msgs import message_class
 
 if TYPE_CHECKING:
