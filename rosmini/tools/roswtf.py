@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from optparse import Values
 
-    from rosmini.ros.launch import Plan
-
 TOOL = Tool(
     "roswtf", "what is probably wrong with the graph, and what to do about it",
     purpose="finding what is wrong", only_verb="look", takes_arguments=True,
@@ -78,13 +76,10 @@ def look(given: Values, call: Call) -> Diagnosis:
     """Run all checks."""
     packages = PackageIndex()
     context, static = _static(packages)
-    plan = _plan(given.words, packages)
-    if isinstance(plan, Finding):
-        static.append(plan)
-    elif plan is not None:
-        from rosmini.ros.launch.wtf import static_findings
+    if given.words:
+        from rosmini.ros.launch.wtf import launch_findings
 
-        static += static_findings(plan, packages, os.environ)
+        static += launch_findings(given.words, packages, os.environ)
     if given.offline:
         return Diagnosis(
             context=context, static=tuple(static), online=None, offline_because="The graph was not looked at."
@@ -97,15 +92,6 @@ def look(given: Values, call: Call) -> Diagnosis:
     online = [found for rule in graph_rules.RULES for found in rule(graph)]
     online += [found for tf_rule in heard_rules.RULES for found in tf_rule(heard)]
     return Diagnosis(context=context, static=tuple(static), online=tuple(online))
-
-
-def _plan(words: list[str], packages: PackageIndex) -> Plan | Finding | None:
-    """Return the plan of the launch file that the words name, or its fault; None without words."""
-    if not words:
-        return None
-    from rosmini.ros.launch.wtf import load
-
-    return load(words, packages)
 
 
 def _static(packages: PackageIndex) -> tuple[str, list[Finding]]:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping, Sequence
 
+from rosmini.core.packages import PackageIndex
 from rosmini.ros.introspection.wtf.findings import Finding
 
 from .errors import LaunchError
@@ -11,30 +12,23 @@ from .executables import missing_programs
 from .reader import find_file, read
 from .running import on_machine
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
 
-    from rosmini.core.packages import PackageIndex
+def launch_findings(words: Sequence[str], packages: PackageIndex, environ: Mapping[str, str]) -> Iterator[Finding]:
+    """Find what is wrong with the launch files of a command line, with ``name:=value``.
 
-    from .plan import Plan
-
-
-def load(words: Sequence[str], packages: PackageIndex) -> Plan | Finding:
-    """Read the launch files of a command line, with ``name:=value``; an unreadable file becomes a finding."""
+    These are unreadable files, missing things, warnings, and nodes that belong on other machines.
+    """
     args = dict(word.split(":=", 1) for word in words if ":=" in word)
     try:
         files = find_file([word for word in words if ":=" not in word], packages)
-        return read(*files, args=args, packages=packages, lenient=True)
+        plan = read(*files, args=args, packages=packages, lenient=True)
     except LaunchError as error:
         first, *rest = str(error).splitlines()
-        return Finding(
+        yield Finding(
             "launch_file", "ERROR", "The launch file cannot be read:", (first, *(f" {each.strip()}" for each in rest)),
             "Reading stopped at this place: correct it, and run roswtf again.",
         )  # fmt: skip
-
-
-def static_findings(plan: Plan, packages: PackageIndex, environ: Mapping[str, str]) -> Iterator[Finding]:
-    """Find missing things, warnings, and packages that are used but not declared."""
+        return
     missing = [*plan.missing, *missing_programs(plan, packages, environ)]
     if missing:
         where: list[str] = []

@@ -7,9 +7,7 @@ from pathlib import Path
 import pytest
 
 from rosmini.core.packages import PackageIndex
-from rosmini.ros.introspection.wtf.findings import Finding
-from rosmini.ros.launch import Plan
-from rosmini.ros.launch.wtf import load, static_findings
+from rosmini.ros.launch.wtf import launch_findings
 
 from .workspace import make
 
@@ -32,15 +30,9 @@ def packages(tmp_path: Path) -> PackageIndex:
     return PackageIndex([folder, *PackageIndex().paths])
 
 
-def plan(packages: PackageIndex, *words: str) -> Plan:
-    found = load(words, packages)
-    assert isinstance(found, Plan)
-    return found
-
-
-def found(packages: PackageIndex, name: str) -> dict[str, tuple[str, ...]]:
-    launch_file = plan(packages, "speaking", f"{name}.launch")
-    return {each.rule: each.where for each in static_findings(launch_file, packages, {})}
+def found(packages: PackageIndex, name: str, *args: str) -> dict[str, tuple[str, ...]]:
+    words = ("speaking", f"{name}.launch", *args)
+    return {each.rule: each.where for each in launch_findings(words, packages, {})}
 
 
 def test_a_file_of_which_all_is_there(packages: PackageIndex) -> None:
@@ -71,11 +63,11 @@ def test_nodes_of_other_machines_are_told_with_what_to_type_there(packages: Pack
     ],
 )
 def test_a_file_that_cannot_be_read_is_a_finding(packages: PackageIndex, words: tuple[str, ...], text: str) -> None:
-    finding = load(words, packages)
-    assert isinstance(finding, Finding)
+    (finding,) = launch_findings(words, packages, {})
+    assert finding.rule == "launch_file"
     assert text in str(finding)
 
 
 def test_arguments_are_given_as_to_roslaunch(packages: PackageIndex) -> None:
-    assert plan(packages, "speaking", "arguments.launch", "which:=talker.py").missing == []
-    assert [each.kind for each in plan(packages, "speaking", "arguments.launch").missing] == ["arg"]
+    assert found(packages, "arguments", "which:=talker.py") == {}
+    assert found(packages, "arguments")["launch_missing"][0].startswith("arg which (")
