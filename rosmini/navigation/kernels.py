@@ -11,14 +11,12 @@ from contextlib import suppress
 from functools import cache
 from importlib import import_module
 from pkgutil import walk_packages
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.geometry.machine_code import machine_code
+from rosmini.core.graph import Node
 from rosmini.core.graph.threads import in_thread
 from rosmini.core.tf.kernel import compiled_walk
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
 
 Kernel = Callable[..., Any]
 

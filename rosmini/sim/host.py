@@ -11,18 +11,16 @@ from __future__ import annotations
 import copy
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from typing import Any, ClassVar, TypeVar
+
+import numpy as np
 
 from rosmini.core.errors import RosminiError, nearest
+from rosmini.core.graph import Node
 from rosmini.core.graph.clock import GraphClock
 from rosmini.core.time import Time
 
 from .engine.engine import Engine
-
-if TYPE_CHECKING:
-    import numpy as np
-
-    from rosmini.core.graph import Node
 
 SECOND = 1_000_000_000
 

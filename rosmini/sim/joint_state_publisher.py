@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.errors import ParameterError
+from rosmini.core.graph import Node
 from rosmini.msgs import message_class
 from rosmini.sim.robot_state_publisher.description import read_description
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
 
 
 class JointStatePublisher:

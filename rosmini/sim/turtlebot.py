@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 from rosmini.core.geometry.poses import Pose
 
@@ -14,13 +14,11 @@ from .devices.imu import ImuDevice
 from .devices.laser import Laser
 from .devices.namespaces import prefixed, within
 from .devices.sensor import Sensor
+from .engine.robot import Robot
 from .host import Device, Host
 from .messages import BASE, BASE_LINK, MAP, ODOM
 from .models import BURGER, CameraModel, RobotModel
 from .sensors.battery import BURGER_BATTERY, WAFFLE_BATTERY, Battery
-
-if TYPE_CHECKING:
-    from .engine.robot import Robot
 
 D = TypeVar("D", bound=Device)
 S = TypeVar("S", bound=Sensor)

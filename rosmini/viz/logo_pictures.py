@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rosmini.sim.logo.turtles import BACKGROUND, Drawing
+from rosmini.sim.logo.turtles import BACKGROUND, Drawing, Pose, Stroke
 from rosmini.sim.logo.values import write
 from rosmini.viz.replay.layers import Layer, Strokes
 from rosmini.viz.replay.layers import Stroke as Line
@@ -20,8 +20,6 @@ from rosmini.viz.words import plural
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-    from rosmini.sim.logo.turtles import Pose, Stroke
 
     Floats = NDArray[np.float64]
 

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from decimal import Decimal
 from types import MappingProxyType
 from typing import TYPE_CHECKING
@@ -27,7 +27,6 @@ from rosmini.viz.style import HAIRLINE, LABEL_SIZE, LIGHT
 from rosmini.viz.svg import document, element, escape
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
     from xml.etree.ElementTree import Element
 
     from matplotlib.axes import Axes

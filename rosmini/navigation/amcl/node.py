@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import fields, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from rosmini.core.dynamic_reconfigure import Server
 from rosmini.core.errors import RosminiError, ServiceException
 from rosmini.core.geometry.poses import Pose, compose, inverse
-from rosmini.core.graph import MessageFactory
+from rosmini.core.graph import MessageFactory, Node
 from rosmini.core.maps.grid_map import GridMap
 from rosmini.core.tf import Buffer, TransformBroadcaster, TransformException, TransformListener
 from rosmini.core.tf.messages import set_pose
@@ -31,9 +31,6 @@ from .laser import Scan
 from .localizer import Estimate, Localizer
 from .motion import MODELS
 from .parameters import LASERS, AmclConfig, AmclParameters
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
 
 TRANSFORM_TIMEOUT = 0.5
 """Maximum time that a scan waits for its transforms [s]."""

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import fields
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,8 +15,9 @@ from numpy.typing import ArrayLike, NDArray
 from rosmini.core.dynamic_reconfigure import Server
 from rosmini.core.errors import ParameterError
 from rosmini.core.geometry.poses import Pose
+from rosmini.core.graph import Node
 from rosmini.core.graph.show import show
-from rosmini.core.tf import TransformException
+from rosmini.core.tf import Buffer, TransformException
 from rosmini.core.tf.rigid import compose, from_yaw, rpy
 from rosmini.core.time import Time
 from rosmini.msgs import message_class
@@ -30,10 +31,6 @@ from .layered import LayeredCostmap
 from .migration import inherit, migrate
 from .parameters import CostmapConfig, CostmapParameters, name_above
 from .publisher import Costmap2DPublisher
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
-    from rosmini.core.tf import Buffer
 
 WARN_PERIOD = 5.0
 """Interval between warnings while the robot's transform is missing [s]."""

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from rosmini.core.graph import Node
 from rosmini.core.tf import Buffer, TransformListener
 
 from .costmap_ros import Costmap2DROS
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
 
 
 class Costmap2DNode:

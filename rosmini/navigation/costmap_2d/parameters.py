@@ -7,14 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
+from rosmini.core.graph import Node
 from rosmini.core.parameters import Parameters, parameter
 
 from .migration import INHERITED, OLD
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
 
 OVERWRITE, MAXIMUM = 0, 1
 """Values of `combination_method`; with any other value the layer writes nothing."""

@@ -4,20 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.errors import RosminiError
-from rosmini.core.tf import TransformException
+from rosmini.core.graph import Node
+from rosmini.core.tf import Buffer, TransformException
 from rosmini.core.tf.message_filter import MessageFilter
 from rosmini.core.tf.rigid import transform_points
 from rosmini.msgs import message_class
 
 from .observations import Floats, Observation, ObservationBuffer, cloud2_points, cloud_points, scan_cloud
 from .parameters import SourceParameters, parameter_above
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
-    from rosmini.core.tf import Buffer
 
 QUEUE_SIZE = 50
 """Maximum number of messages waiting for their transforms."""

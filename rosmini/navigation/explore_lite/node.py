@@ -10,9 +10,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.actionlib import SimpleActionClient, Status
+from rosmini.core.graph import Node
 from rosmini.core.parameters import Parameters, parameter
 from rosmini.msgs import message_class
 from rosmini.navigation.frontier_exploration.search import Blacklist, Frontier, find_frontiers, formatted_points
@@ -20,9 +21,6 @@ from rosmini.navigation.nav_core import TransformMissing, pose_stamped
 
 from .costs import Weights, ranked
 from .map_client import WARN_PERIOD, MapClient
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
 
 Ranked = Sequence[tuple[float, Frontier]]
 

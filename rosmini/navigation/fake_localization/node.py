@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from rosmini.core.graph import MessageFactory
+from rosmini.core.graph import MessageFactory, Node
 from rosmini.core.parameters import Parameters, parameter
 from rosmini.core.tf import TransformBroadcaster, TransformException, TransformListener
 from rosmini.core.tf.broadcaster import resolve, tf_prefix
@@ -19,9 +19,6 @@ from rosmini.core.tf.messages import from_pose, set_pose
 from rosmini.core.tf.rigid import Rigid, compose, from_yaw, inverse
 from rosmini.core.time import Duration
 from rosmini.msgs import message_class
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
 
 MAX_WAITING = 100
 """Maximum number of true poses that wait for the odometry's transform."""

@@ -16,12 +16,13 @@ from __future__ import annotations
 import math
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from rosmini.core.actionlib import SimpleActionClient, SimpleActionServer, Status
 from rosmini.core.errors import ROSException, ServiceException
+from rosmini.core.graph import Node
 from rosmini.core.parameters import Parameters, parameter
 from rosmini.core.tf import TransformException, TransformListener
 from rosmini.msgs import message_class, service_class
@@ -32,9 +33,6 @@ from rosmini.navigation.nav_core import TransformMissing, planar_pose, pose_stam
 from .plugin import BoundedExploreLayer, points_in_frame
 from .polygon import contains
 from .search import Blacklist
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
 
 ATTEMPTS = 5
 """Number of repeated requests for a frontier before the exploration ends."""

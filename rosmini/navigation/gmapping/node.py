@@ -7,12 +7,13 @@ odometry frame; the service `dynamic_map` returns the map. A scan waits until it
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from rosmini.core.errors import RosminiError
 from rosmini.core.geometry.poses import Pose, compose, inverse
+from rosmini.core.graph import Node
 from rosmini.core.tf import Buffer, TransformBroadcaster, TransformException, TransformListener
 from rosmini.core.tf.rigid import from_yaw
 from rosmini.core.time import Duration, Time
@@ -23,9 +24,6 @@ from rosmini.navigation.nav_core.poses import planar_transform
 from .extent import first_extent, published
 from .parameters import GmappingParameters
 from .slam import MAX_STEP, GridSlam
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
 
 TRANSFORM_TIMEOUT = 0.5
 """Maximum time that a scan waits for its transforms [s]."""

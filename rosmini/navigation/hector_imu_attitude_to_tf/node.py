@@ -7,15 +7,13 @@ A tilted laser sees the floor and the ceiling. A frame that stays level under th
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from rosmini.core.graph import Node
 from rosmini.core.parameters import Parameters, parameter
 from rosmini.core.tf import TransformBroadcaster, TransformException
 from rosmini.core.tf.rigid import Rigid, from_rpy, rigid, rpy
 from rosmini.msgs import message_class
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
 
 
 @dataclass(frozen=True)

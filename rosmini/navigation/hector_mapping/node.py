@@ -10,13 +10,14 @@ from __future__ import annotations
 
 import math
 import time
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.errors import RosminiError
 from rosmini.core.geometry.poses import Pose
+from rosmini.core.graph import Node
 from rosmini.core.tf import Buffer, TransformBroadcaster, TransformException, TransformListener
 from rosmini.core.tf.messages import set_pose, transform_of
 from rosmini.core.tf.rigid import IDENTITY, Rigid, compose, from_yaw, inverse, rpy
@@ -29,9 +30,6 @@ from .matching import UNKNOWN_VARIANCE
 from .parameters import HectorMappingParameters
 from .scans import ends_in_laser_frame, scan_ends
 from .slam import HectorSlam
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
 
 TRANSFORM_TIMEOUT = 0.5
 """Maximum time that a scan waits for a transform [s]."""

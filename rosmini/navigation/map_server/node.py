@@ -12,19 +12,17 @@ it is 255). As in the original, its response has no map.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.errors import RosminiError, UsageError
 from rosmini.core.files import path_of
+from rosmini.core.graph import Node
 from rosmini.core.graph.clock import TopicClock
 from rosmini.core.maps.grid_map import GridMap, MapError, MapMetadataError, MapMissing
 from rosmini.core.maps.map_io import MapFile, image_file, map_file
 from rosmini.core.packages import PackageIndex, address_of
 from rosmini.core.parameters import Parameters, parameter
 from rosmini.msgs import message_class, service_class
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
 
 USAGE = """USAGE: map_server <map.yaml>
   map.yaml: map description file

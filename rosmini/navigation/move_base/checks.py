@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.entry_points import entry_points
 from rosmini.core.errors import nearest
+from rosmini.core.graph import Node
 from rosmini.core.plugins import GROUP
 from rosmini.navigation.costmap_2d.inflation_layer import InflationLayer
 from rosmini.navigation.nav_core.plugin_files import short_name
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
 
 ROUND_TOLERANCE = 0.01
 """A footprint counts as round if its two radii differ by at most this length [m]."""

@@ -14,11 +14,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.actionlib import SimpleActionServer
 from rosmini.core.dynamic_reconfigure import Server
 from rosmini.core.errors import ROSInterruptException, RosminiError
+from rosmini.core.graph import Node
 from rosmini.core.graph.show import show
 from rosmini.core.tf import TransformListener
 from rosmini.msgs import message_class, service_class
@@ -35,9 +36,6 @@ from .plugin_calls import call
 from .plugins import GLOBAL, LOCAL, Planners
 from .recoveries import Recoveries
 from .state_machine import Abort, Follow, Plan, Recover, State, StateMachine
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
 
 BAD_QUATERNION = "Aborting on goal because it was sent with an invalid quaternion"
 RECOVERY_TIME_LIMIT = 120.0

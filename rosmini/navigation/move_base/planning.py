@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from itertools import product
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from rosmini.core.graph import Node, Waiter
 
 from .state_machine import StateMachine
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node, Waiter
 
 STEP_CELLS = 3.0
 """Distance [cells] between the alternative goals that `make_plan` tries."""

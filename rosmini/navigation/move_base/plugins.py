@@ -6,13 +6,12 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import ROSInterruptException
-from rosmini.core.graph import Subscriber
+from rosmini.core.graph import Node, Subscriber
 from rosmini.core.plugins import PluginError
 from rosmini.navigation.nav_core import BaseGlobalPlanner, BaseLocalPlanner
 from rosmini.navigation.nav_core.plugin_files import create, short_name
 
 if TYPE_CHECKING:
-    from rosmini.core.graph import Node
     from rosmini.core.tf import Buffer
 
 GLOBAL, LOCAL = "global", "local"

@@ -11,15 +11,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.errors import ServiceException
+from rosmini.core.graph.clock import Timer
 from rosmini.core.parameters import Parameters, parameter
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.nav_core import RecoveryBehavior, TransformMissing, planar_pose
-
-if TYPE_CHECKING:
-    from rosmini.core.graph.clock import Timer
 
 CHECK_PERIOD = 0.1
 """Interval between checks of the distance driven [s]."""

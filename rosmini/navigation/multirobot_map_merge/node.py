@@ -8,21 +8,19 @@ set by four parameters in the robot's namespace, `map_merge/init_pose_x`, `_y`, 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from rosmini.core.errors import ParameterError
 from rosmini.core.geometry.poses import Pose
+from rosmini.core.graph import Node
 from rosmini.core.maps import GridMap, MapError
 from rosmini.core.names import join
 from rosmini.core.parameters import Parameters, parameter
 from rosmini.msgs import message_class
 
 from .merging import merge
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
 
 GRID = "nav_msgs/OccupancyGrid"
 

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.geometry.angles import normalize_angle
+from rosmini.core.geometry.poses import Pose
 from rosmini.msgs import message_class
+from rosmini.sim.engine.robot import Robot
 from rosmini.sim.host import Device, Host, Stamp
 from rosmini.sim.sensors.battery import Battery, Charge
 
 from .drive import DifferentialDrive
 from .sensor import Outlet, Sensor
-
-if TYPE_CHECKING:
-    from rosmini.core.geometry.poses import Pose
-    from rosmini.sim.engine.robot import Robot
 
 BOARD_RATE = 30.0
 """Rate at which TurtleBot3's firmware reports its state [Hz]: DRIVE_INFORMATION_PUBLISH_FREQUENCY."""

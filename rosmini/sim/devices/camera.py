@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.core.geometry.poses import Pose
 from rosmini.msgs import message_class
+from rosmini.sim.engine.robot import Robot
 from rosmini.sim.host import Device, Host, Stamp
 from rosmini.sim.models import CameraModel
-from rosmini.sim.sensors.rendering import camera_info, camera_noise, develop, expose
+from rosmini.sim.sensors.rendering import Light, camera_info, camera_noise, develop, expose
 from rosmini.sim.sensors.scene import Scene, parts_of
+from rosmini.sim.shapes import Part
+from rosmini.sim.world import World
 
 from .sensor import Outlet
-
-if TYPE_CHECKING:
-    from rosmini.core.geometry.poses import Pose
-    from rosmini.sim.engine.robot import Robot
-    from rosmini.sim.sensors.rendering import Light
-    from rosmini.sim.shapes import Part
-    from rosmini.sim.world import World
 
 Image = NDArray[np.uint8]
 Depths = NDArray[np.float32]

@@ -10,19 +10,16 @@ turn to the heading. A robot has no pen: its lines are the path that it drove, b
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 from rosmini.core.errors import ROSException
 from rosmini.core.geometry.angles import normalize_angle, yaw_from_quaternion
+from rosmini.core.graph import Node
 from rosmini.msgs import message_class
 
 from .turtles import Flock, Pose, Stroke, Turtle
 from .values import LogoError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from rosmini.core.graph import Node
 
 METRE = 100.0
 """Steps in a metre."""

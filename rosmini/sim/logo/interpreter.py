@@ -12,7 +12,7 @@ from types import GeneratorType
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from .floor import FloorFlock, robots_of
-from .reader import Call, Constant, Procedure, Variable, parse, read
+from .reader import Call, Constant, Expression, Procedure, Variable, parse, read
 from .turtles import Drawing, Flock, Paper
 from .turtlesim import WindowFlock, turtles_of
 from .values import (
@@ -34,8 +34,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Iterable
 
     from rosmini.core.graph import Node
-
-    from .reader import Expression
 
     Steps: TypeAlias = "Generator[Steps, Value | None, Value | None]"
 

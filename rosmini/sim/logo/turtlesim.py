@@ -10,16 +10,14 @@ A step is a pixel of the window, 45 of which make a metre there, and [0 0] is it
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.errors import ROSException, ServiceException
+from rosmini.core.graph import Node
 from rosmini.msgs import message_class, service_class
 
 from .turtles import HOME, Flock, Pen, Pose, Stroke, Turtle
 from .values import LogoError
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
 
 METRE = Flock.metre
 MIDDLE = Flock.middle

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from rosmini.core.errors import ParameterNotSet
+from rosmini.core.graph import Node
 from rosmini.sim.urdf import Robot, load
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
 
 NAME = "robot_description"
 

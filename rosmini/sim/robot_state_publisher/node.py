@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from rosmini.core.errors import nearest
+from rosmini.core.graph import Node
 from rosmini.core.parameters import Parameters, parameter
 from rosmini.core.tf.broadcaster import StaticTransformBroadcaster, TransformBroadcaster, tf_prefix
 from rosmini.core.tf.messages import to_stamped
@@ -13,9 +14,6 @@ from rosmini.msgs import message_class
 
 from .chain import Chain, Sent
 from .description import NAME, read_description
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
 
 SECOND_NS = 1_000_000_000
 OLD_NS = 30 * SECOND_NS

@@ -6,12 +6,10 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from rosmini.core.graph import Node
 from rosmini.msgs import message_class, service_class
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
 
 PERIOD_S = 0.016
 SIDE_M, SPEED, TURNING = 2.0, 1.0, 0.4

@@ -6,12 +6,10 @@ It subscribes to poses on `input/pose` and publishes their velocities on `output
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from rosmini.core.graph import Node
 from rosmini.msgs import message_class
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
 
 
 class Mimic:

@@ -11,11 +11,12 @@ from __future__ import annotations
 import random
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.errors import IllegalName, ParameterError, RosminiError, ServiceRefused, nearest
-from rosmini.core.graph import Graph, running_graph
+from rosmini.core.graph import Graph, Node, running_graph
 from rosmini.core.graph.clock import GraphClock
+from rosmini.core.graph.lanes import Waiter
 from rosmini.core.graph.show import has_own_process, show
 from rosmini.core.names import check_name, resolve
 from rosmini.core.parameters import Parameters, parameter
@@ -26,10 +27,6 @@ from .frame import Frame
 from .paper import BACKGROUND, Colour
 from .tape import Tape
 from .turtle import START, STEP_S, Turtle, TurtleError
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
-    from rosmini.core.graph.lanes import Waiter
 
 STEP_NS = round(STEP_S * 1e9)
 

@@ -9,16 +9,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.dynamic_reconfigure import Server
+from rosmini.core.graph import Node
 from rosmini.core.parameters import Parameters, parameter
 from rosmini.msgs import message_class
 
 from .smoother import FEEDBACK, Limits, VelocitySmoother
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
 
 
 @dataclass(frozen=True)

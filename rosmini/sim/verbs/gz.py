@@ -11,13 +11,15 @@ service, act on the server itself, which must run in the same process. In a term
 
 from __future__ import annotations
 
+from argparse import Namespace
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.errors import UsageError
+from rosmini.core.graph import Node
 from rosmini.core.markup import parse_file
 from rosmini.core.verbs import SECOND, ArgumentParser, Call, Lines, Overview, Result, Span, Tool, tool_node
 from rosmini.msgs import message_class, service_class
@@ -27,11 +29,6 @@ from rosmini.sim.gazebo.from_urdf import from_urdf
 from rosmini.sim.gazebo.services import pose_message, pose_of
 from rosmini.sim.gazebo.to_sdf import to_sdf
 from rosmini.sim.gazebo.topics import GazeboMaster, address, find_master
-
-if TYPE_CHECKING:
-    from argparse import Namespace
-
-    from rosmini.core.graph import Node
 
 TOOL = Tool(
     "gz",

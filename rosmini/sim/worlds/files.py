@@ -8,9 +8,10 @@ import re
 import warnings
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rosmini.core.files import read
 from rosmini.core.geometry.errors import GeometryError
@@ -21,9 +22,6 @@ from rosmini.sim.geometry.contours import trace
 from rosmini.sim.sdf import SdfError, converted, load
 from rosmini.sim.sdf.document import Note
 from rosmini.sim.world import Pose, World, WorldError
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 Kind = Literal["sdf", "stage", "map", "urdf", "xml"]
 

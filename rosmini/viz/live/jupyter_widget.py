@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import anywidget
 import traitlets
 
 from .page import module
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
 
 
 class PageWidget(anywidget.AnyWidget):

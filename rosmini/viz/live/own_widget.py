@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from itertools import count
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from rosmini.viz.embed import embed
 
 from .loopback import packed
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
 
 _ids = count(1)
 

@@ -20,10 +20,12 @@ wanted 0.00 m/s and 0.0 rad/s; sent 0.00 m/s and 0.0 rad/s; 5 messages
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 from rosmini.core.errors import ROSException, ROSInterruptException, RosminiError
 from rosmini.core.graph import Graph, Node
+from rosmini.core.graph.clock import Timer
 from rosmini.core.names import resolve
 from rosmini.msgs import message_class
 from rosmini.sim.simulation import Simulation
@@ -34,12 +36,6 @@ from .driven_turtle import DrivenTurtle
 from .key_maps import key_map
 from .live_view import LiveView
 from .teleop import PERIOD, Limits, Teleop, TeleopError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from rosmini.core.graph.clock import Timer
-
 
 NAME = "teleop_pad"
 """Name of a pad's node."""

@@ -6,29 +6,22 @@ import os
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from optparse import Values
+from typing import Any
 
+from rosmini.core.graph import Graph
+from rosmini.core.verbs import Call
 from rosmini.ros.bag import Bag
 from rosmini.viz.figures import WIDTH, say, step_of, ticks
 from rosmini.viz.metrics import text_width
 from rosmini.viz.rounding import fixed
 from rosmini.viz.style import LABEL_SIZE, TEXT_SIZE, variable
 from rosmini.viz.svg import document, element, escape, number
-from rosmini.viz.view import Picture, ViewError
+from rosmini.viz.view import Picture, View, ViewError
 from rosmini.viz.words import plural
 
 from .panel import Panel, bar
-from .parts import Control, Words, drawn
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-    from optparse import Values
-
-    from rosmini.core.graph import Graph
-    from rosmini.core.verbs import Call
-    from rosmini.viz.view import View
-
-    from .parts import Drawing, Part
+from .parts import Control, Drawing, Part, Words, drawn
 
 KIND = "rosmini-bag"
 ROW, BAR = 34.0, 14.0

@@ -5,27 +5,21 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Collection, Iterable, Sequence
 from itertools import zip_longest
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from optparse import Values
+from typing import Any, Literal, get_args
 
 from rosmini.core.errors import nearest
+from rosmini.core.graph import Graph
 from rosmini.core.graph.observers.console import Console
 from rosmini.core.graph.rosout import LEVELS, NAMES
+from rosmini.core.verbs import Parser
 from rosmini.viz.rqt.selection import matches
 from rosmini.viz.view import ViewError
 from rosmini.viz.words import plural
 
 from .panel import Panel, bar
-from .parts import Control, Row, Rows, Words, cell_text
+from .parts import Control, Part, Row, Rows, Words, cell_text
 from .table import Table
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-    from optparse import Values
-
-    from rosmini.core.graph import Graph
-    from rosmini.core.verbs import Parser
-
-    from .parts import Part
 
 Column = Literal["stamp", "severity", "node", "message", "location", "topics"]
 COLUMNS: tuple[Column, ...] = ("stamp", "severity", "node", "message", "location")

@@ -2,27 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from collections.abc import Callable, Iterator, Sequence
+from optparse import Values
+from typing import Any, ClassVar
 
 from rosmini.core.errors import DefinitionError, IllegalName, UnknownPackage, UnknownType
+from rosmini.core.graph import Graph
+from rosmini.core.verbs import Call
+from rosmini.msgs.definition import MessageSpec
 from rosmini.msgs.registry import registry
 from rosmini.viz.rqt.table import Table
-from rosmini.viz.view import ViewError
+from rosmini.viz.view import View, ViewError
 
 from .panel import Panel, bar
-from .parts import Control, Row, Rows
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
-    from optparse import Values
-
-    from rosmini.core.graph import Graph
-    from rosmini.core.verbs import Call
-    from rosmini.msgs.definition import MessageSpec
-    from rosmini.viz.rqt.table import Table
-    from rosmini.viz.view import View
-
-    from .parts import Part
+from .parts import Control, Part, Row, Rows
 
 COLUMNS = ("Tree", "Type", "Path")
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from io import BytesIO
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.errors import RosminiError, nearest
 from rosmini.core.expressions import Expression, ExpressionError
@@ -12,9 +13,6 @@ from rosmini.msgs.message import Message
 from rosmini.viz.view import ViewError
 
 from .parts import Control, Row, Rows
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
 
 TIMES = {"time": Time, "duration": Duration}
 

@@ -2,31 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, get_args
+from optparse import Values
+from typing import Any, get_args
 
+from rosmini.core.graph import Graph
+from rosmini.core.verbs import Call, Parser
 from rosmini.ros.introspection.nodes import names, silent
 from rosmini.viz.layout import Direction
 from rosmini.viz.rqt.drawing import draw
 from rosmini.viz.rqt.graph_state import CALLER_ID, GraphState, graph_state
 from rosmini.viz.rqt.highlight import highlighted
 from rosmini.viz.rqt.selection import MEANING, Group, Hide, Mode, Selection, matches, select
-from rosmini.viz.view import Picture, ViewError
+from rosmini.viz.view import Picture, View, ViewError
 from rosmini.viz.words import plural
 
 from .panel import Panel, bar
-from .parts import Control, Drawing
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-    from optparse import Values
-
-    from rosmini.core.graph import Graph
-    from rosmini.core.verbs import Call, Parser
-    from rosmini.viz.view import View
-
-    from .parts import Part
+from .parts import Control, Drawing, Part
 
 MAX_PARTS = 1000
 """Maximum number of nodes, topics and arrows of a picture."""

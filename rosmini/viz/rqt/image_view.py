@@ -2,26 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Sequence
+from optparse import Values
+from typing import Any
 
-from rosmini.core.verbs import Span, VerbError, tool_node
+from rosmini.core.graph import Graph
+from rosmini.core.verbs import Call, Span, VerbError, tool_node
 from rosmini.msgs import message_class
 from rosmini.ros.introspection.topics import types
 from rosmini.viz.image_pictures import image_picture
-from rosmini.viz.view import ViewError
+from rosmini.viz.view import View, ViewError
 
 from .panel import Panel, bar
-from .parts import Control, Words, drawn
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-    from optparse import Values
-
-    from rosmini.core.graph import Graph
-    from rosmini.core.verbs import Call
-    from rosmini.viz.view import View
-
-    from .parts import Part
+from .parts import Control, Part, Words, drawn
 
 
 class ImageView(Panel):

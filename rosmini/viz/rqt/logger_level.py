@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
 from rosmini.core.errors import ServiceException, nearest
+from rosmini.core.graph import Graph
 from rosmini.core.graph.rosout import LEVELS
 from rosmini.msgs import service_class
 from rosmini.ros.introspection.services import services
 from rosmini.viz.view import ViewError
 
 from .panel import Panel, bar
-from .parts import Control, Row, Rows
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from rosmini.core.graph import Graph
-
-    from .parts import Part
+from .parts import Control, Part, Row, Rows
 
 GET, SET = "/get_loggers", "/set_logger_level"
 NAMES = tuple(name.capitalize() for name in LEVELS)

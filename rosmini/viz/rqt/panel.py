@@ -3,31 +3,24 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
 
 from rosmini.core.errors import RosminiError, nearest
-from rosmini.core.graph import Node
+from rosmini.core.graph import Graph, Node
 from rosmini.core.names import resolve
-from rosmini.core.verbs import Span
+from rosmini.core.verbs import Call, Span
 from rosmini.viz.live.live_view import LiveView
 from rosmini.viz.svg import element
 from rosmini.viz.view import View, ViewError
 
 from .markup import page
-from .parts import Bar, Control, Drawing, Part, Words, controls, text_of
+from .parts import Bar, Control, Drawing, Part, Value, Words, controls, text_of
 from .plugin import Plugin
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from optparse import Values
-    from typing import Self, TypeVar
-
-    from rosmini.core.graph import Graph
-    from rosmini.core.verbs import Call
-
-    from .parts import Value
 
     T = TypeVar("T")
 

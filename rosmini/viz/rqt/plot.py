@@ -7,14 +7,14 @@ from bisect import bisect_left
 from numbers import Real
 from typing import TYPE_CHECKING, Any
 
-from rosmini.core.verbs import global_name
+from rosmini.core.verbs import Call, global_name
 from rosmini.ros.introspection.fields import FieldError, class_of, reader
 from rosmini.ros.introspection.topics import Found, look_up, what_next
 from rosmini.viz.plots import COLOURS, plot
-from rosmini.viz.view import Picture, ViewError
+from rosmini.viz.view import Picture, View, ViewError
 
 from .panel import Panel, bar, each_of, pass_time
-from .parts import Control, Drawing, Words, drawn
+from .parts import Control, Drawing, Part, Words, drawn
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -22,11 +22,7 @@ if TYPE_CHECKING:
 
     from rosmini.core.graph import Graph
     from rosmini.core.graph.subscription import Subscriber
-    from rosmini.core.verbs import Call
     from rosmini.ros.bag import Bag
-    from rosmini.viz.view import View
-
-    from .parts import Part
 
 Samples = dict[str, tuple[list[float], list[float]]]
 """Times [s] and values, by the name of the field."""

@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from functools import cache
 from importlib import import_module
+from optparse import Values
 from pathlib import Path
 from pkgutil import iter_modules
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
-from rosmini.core.verbs import Parser, global_name
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-    from optparse import Values
-
-    from rosmini.core.verbs import Call
-    from rosmini.viz.view import View
+from rosmini.core.verbs import Call, Parser, global_name
+from rosmini.viz.view import View
 
 
 class Plugin:

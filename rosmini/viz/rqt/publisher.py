@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
 from rosmini.core.errors import RosminiError, nearest
+from rosmini.core.graph import Graph
+from rosmini.core.graph.clock import Timer
 from rosmini.core.names import resolve
 from rosmini.ros.introspection.fields import class_of
 from rosmini.ros.introspection.topics import types
@@ -14,16 +17,8 @@ from rosmini.viz.words import plural
 
 from .fields import Fields
 from .panel import Panel, bar
-from .parts import Box, Control
+from .parts import Box, Control, Part
 from .perspective import literal
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from rosmini.core.graph import Graph
-    from rosmini.core.graph.clock import Timer
-
-    from .parts import Part
 
 FASTEST_HZ = 1000.0
 

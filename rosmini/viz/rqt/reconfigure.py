@@ -4,23 +4,17 @@ from __future__ import annotations
 
 import ast
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator, Sequence
+from typing import Any
 
-from rosmini.core.dynamic_reconfigure import Client, Config
+from rosmini.core.dynamic_reconfigure import Client, Config, ParameterGroup, ReconfigurableParameter
 from rosmini.core.errors import ROSException, nearest
+from rosmini.core.graph import Graph
 from rosmini.ros.introspection.services import services
 from rosmini.viz.view import ViewError
 
 from .panel import Panel, bar, each_of
-from .parts import Box, Cell, Control, Row, Rows, number_text
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from rosmini.core.dynamic_reconfigure import ParameterGroup, ReconfigurableParameter
-    from rosmini.core.graph import Graph
-
-    from .parts import Part
+from .parts import Box, Cell, Control, Part, Row, Rows, number_text
 
 SUFFIX = "/set_parameters"
 PATIENCE_S = 5.0

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from optparse import Values
+
+from rosmini.core.verbs import Call, Parser
+from rosmini.viz.view import View
 
 from .plugin import Plugin
-
-if TYPE_CHECKING:
-    from optparse import Values
-
-    from rosmini.core.verbs import Call, Parser
-    from rosmini.viz.view import View
 
 
 class RobotSteering(Plugin):

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
 from rosmini.core.errors import ServiceException, TransportException, nearest
+from rosmini.core.graph import Graph
 from rosmini.ros.introspection.fields import service_class_of
 from rosmini.ros.introspection.services import services, type_of
 from rosmini.viz.rqt.topics import value_text
@@ -12,14 +14,7 @@ from rosmini.viz.view import ViewError
 
 from .fields import Fields, value_table
 from .panel import Panel, bar
-from .parts import Box, Control
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from rosmini.core.graph import Graph
-
-    from .parts import Part
+from .parts import Box, Control, Part
 
 
 class ServiceCaller(Panel):

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
+from rosmini.core.graph import Graph
 from rosmini.core.tf import FrameTree, TransformListener
 from rosmini.core.tf.history import History
 from rosmini.viz import style
@@ -15,14 +17,7 @@ from rosmini.viz.view import Picture, ViewError
 from rosmini.viz.words import plural
 
 from .panel import Panel, bar
-from .parts import Control, drawn
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from rosmini.core.graph import Graph
-
-    from .parts import Part
+from .parts import Control, Part, drawn
 
 COLOURS = ["ink", "muted", "line", "node-fill", "node-line", "topic-fill", "topic-line", "label"]
 

@@ -2,31 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterator, Sequence
 from io import BytesIO
-from typing import TYPE_CHECKING, Any
+from optparse import Values
+from typing import Any
 
 from rosmini.core.errors import nearest
+from rosmini.core.graph import Graph
+from rosmini.core.graph.subscription import Subscriber
+from rosmini.core.verbs import Call
 from rosmini.msgs.message import Message
 from rosmini.ros.introspection.fields import class_of
 from rosmini.ros.introspection.rates import Arrivals, Sizes
 from rosmini.ros.introspection.topics import types
-from rosmini.viz.view import ViewError
+from rosmini.viz.view import View, ViewError
 from rosmini.viz.words import plural
 
 from .panel import Panel, each_of, pass_time
-from .parts import Control, Row, Rows, without_controls
+from .parts import Control, Part, Row, Rows, without_controls
 from .table import Table
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator, Sequence
-    from optparse import Values
-
-    from rosmini.core.graph import Graph
-    from rosmini.core.graph.subscription import Subscriber
-    from rosmini.core.verbs import Call
-    from rosmini.viz.view import View
-
-    from .parts import Part
 
 MAX_LENGTH = 60
 """Maximum number of characters of a value."""

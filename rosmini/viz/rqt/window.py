@@ -6,26 +6,21 @@ the real rqt can be imported and exported (:mod:`~rosmini.viz.rqt.perspective`).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from optparse import Values
+from pathlib import Path
+from typing import Any
 
 from rosmini.core.errors import RosminiError, nearest
+from rosmini.core.graph import Graph
+from rosmini.core.verbs import Parser
 from rosmini.viz.view import ViewError
 
 from .panel import Panel, bar
-from .parts import Box, Control, Words, within
+from .parts import Box, Cell, Control, Part, Words, within
 from .perspective import Perspective, Running
 from .plugin import plugins
 from .plugins import menu
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-    from optparse import Values
-    from pathlib import Path
-
-    from rosmini.core.graph import Graph
-    from rosmini.core.verbs import Parser
-
-    from .parts import Cell, Part
 
 
 class Rqt(Panel):

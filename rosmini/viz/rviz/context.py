@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from rosmini.core.errors import RosminiError
-from rosmini.core.tf import Buffer, ExtrapolationException, TransformException
+from rosmini.core.graph import Node
+from rosmini.core.tf import Buffer, ExtrapolationException, FrameTree, TransformException
 from rosmini.core.tf.rigid import IDENTITY, Rigid
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Node
-    from rosmini.core.tf import FrameTree
 
 TF_CACHE_S = 600.0
 """Duration of tf's past that RViz stores [s]."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from rosmini.core.graph import Graph
 from rosmini.core.plugins import PluginError
 from rosmini.viz.figures import WIDTH
 from rosmini.viz.meshcat.view import MeshcatView
@@ -26,9 +26,6 @@ from .scene import Layer, Scene
 from .solid import Drawing, RvizScene, camera_of, text_labels
 from .suggestions import suggested
 from .views import Viewpoint, view_like
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Graph
 
 BACKDROP = ("rviz/Grid",)
 """Displays that do not enlarge a picture if there are others."""

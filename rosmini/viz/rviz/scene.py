@@ -13,9 +13,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, NamedTuple, Self
+from typing import Any, NamedTuple, Self
 
 from rosmini.core.errors import nearest
+from rosmini.core.graph import Graph, Node
 from rosmini.core.plugins import PluginError
 from rosmini.core.tf import TransformListener
 from rosmini.viz.view import ViewError
@@ -26,9 +27,6 @@ from .display import Display, FailedDisplay, Level, Status
 from .displays.group import Group
 from .primitives import Pane, Primitive
 from .views import ViewController, view_controller
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Graph, Node
 
 
 class Layer(NamedTuple):

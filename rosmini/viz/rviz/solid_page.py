@@ -9,11 +9,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from rosmini.viz.meshcat.scene3d import Camera
+from rosmini.viz.rviz import Layer, Scene
 from rosmini.viz.rviz.displays.interactive_markers import InteractiveMarkers
 from rosmini.viz.rviz.labels import MAX_LABELS, Label
 from rosmini.viz.rviz.primitives import Lines, Mesh, Points, Primitive, Text, Texture
@@ -21,9 +22,6 @@ from rosmini.viz.rviz.solid import Drawing, RvizScene, text_labels
 from rosmini.viz.rviz.tools import Interact, MoveCamera, Tool
 from rosmini.viz.rviz.views import Orbit
 from rosmini.viz.style import hex_colour
-
-if TYPE_CHECKING:
-    from rosmini.viz.rviz import Layer, Scene
 
 SCRIPTS = ("rosmini-meshcat.js", "rosmini-rviz.js")
 NUMBERS = 6

@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.core.errors import RosminiError, nearest
+from rosmini.core.graph import Graph
 from rosmini.viz.map_colours import scheme_of
 from rosmini.viz.view import ViewError
 
 from .config import Config, kind_of
 from .display import Display
 from .displays.group import display_from
+from .scene import Scene
 from .topic_display import TopicDisplay
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Graph
-
-    from .scene import Scene
 
 MAX_DISPLAYS = 40
 """Maximum number of displays."""

@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 from abc import ABC
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -31,10 +31,8 @@ from .displays.interactive_markers import InteractiveMarkers
 from .primitives import DisplayError, Floats, Lines, Primitive, finite
 from .properties import Properties, Property
 from .rays import Ray, ray_from_above
+from .scene import Scene
 from .shapes import arrow
-
-if TYPE_CHECKING:
-    from .scene import Scene
 
 Point = Sequence[float]
 """x and y, or x, y and z, in the fixed frame [m]."""

@@ -8,35 +8,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
+from rosmini.core.graph import Graph, Node
 from rosmini.viz.figures import WIDTH
 from rosmini.viz.rqt.panel import Panel, bar
-from rosmini.viz.rqt.parts import Control, Drawing, Row, Rows, Words
-from rosmini.viz.rviz import Config, Level, Scene
+from rosmini.viz.rqt.parts import Control, Drawing, Part, Row, Rows, Words
+from rosmini.viz.rviz import Config, Display, Layer, Level, Scene
 from rosmini.viz.rviz.displays.group import Group
 from rosmini.viz.rviz.flat import draw
 from rosmini.viz.rviz.picture import alt_text, flat_projection, words
-from rosmini.viz.rviz.primitives import Lines
-from rosmini.viz.rviz.projection import ParallelProjection, Perspective
+from rosmini.viz.rviz.primitives import Floats, Lines, Primitive
+from rosmini.viz.rviz.projection import ParallelProjection, Perspective, Projection
 from rosmini.viz.rviz.selection import Picked, hit, picked
 from rosmini.viz.rviz.suggestions import Suggestions, suggested
 from rosmini.viz.rviz.tools import Select, Tools
 from rosmini.viz.rviz.views import PIXELS, Orbit, TopDownOrtho, ViewController, view_like
 from rosmini.viz.view import ViewError
 
-from .solid_page import HOST, NUMBERS, SCRIPTS, SolidPage, is_possible, turn
-
-if TYPE_CHECKING:
-    from rosmini.core.graph import Graph, Node
-    from rosmini.viz.rqt.parts import Part
-    from rosmini.viz.rviz import Display, Layer
-    from rosmini.viz.rviz.primitives import Floats, Primitive
-    from rosmini.viz.rviz.projection import Projection
-
-    from .solid_page import Message
+from .solid_page import HOST, NUMBERS, SCRIPTS, Message, SolidPage, is_possible, turn
 
 SETTLES_NS = 2_000_000_000
 """Time for which the view follows new data [ns], unless the user is moving it."""

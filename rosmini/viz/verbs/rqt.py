@@ -6,16 +6,11 @@ browser; a notebook shows the view: ``TOOL.run("plot", "/odom/twist/twist/linear
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from optparse import Values
 
 from rosmini.core.verbs import Call, Parser, Shown, Tool, VerbError, shown
-from rosmini.viz.rqt.plugin import plugins
+from rosmini.viz.rqt.plugin import Plugin, plugins
 from rosmini.viz.rqt.plugins import rqt_plugins
-
-if TYPE_CHECKING:
-    from optparse import Values
-
-    from rosmini.viz.rqt.plugin import Plugin
 
 TOOL = Tool("rqt", "the tools of rqt as pictures", purpose="looking at a graph", example="graph")
 

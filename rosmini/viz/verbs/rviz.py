@@ -7,12 +7,9 @@ two are a page in a terminal, too. ``TOOL.run("-d", "my.rviz", graph=graph).view
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from optparse import Values
 
 from rosmini.core.verbs import Call, Parser, Result, Shown, Span, Tool, shown
-
-if TYPE_CHECKING:
-    from optparse import Values
 
 TOOL = Tool(
     "rviz", "show a robot, its sensors and its plans in the browser, and send it goals",

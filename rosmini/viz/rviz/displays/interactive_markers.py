@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from rosmini.core.errors import RosminiError, nearest
 from rosmini.core.geometry.products import inverse_matrix, matrix_product
+from rosmini.core.graph.publisher import Publisher
 from rosmini.core.tf import TransformException
 from rosmini.core.time import Time
 from rosmini.msgs import message_class
@@ -20,9 +21,6 @@ from rosmini.viz.rviz.handles import Control, Drag, Handle, pose_message
 from rosmini.viz.rviz.primitives import DisplayError, Floats, Primitive, finite
 from rosmini.viz.rviz.properties import Property
 from rosmini.viz.rviz.rays import Ray
-
-if TYPE_CHECKING:
-    from rosmini.core.graph.publisher import Publisher
 
 Feedback = message_class("visualization_msgs/InteractiveMarkerFeedback")
 MenuEntry = message_class("visualization_msgs/MenuEntry")
