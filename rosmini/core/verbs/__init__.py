@@ -2,17 +2,8 @@
 
 from __future__ import annotations
 
-from .options import (
-    SECOND,
-    Parser,
-    Span,
-    add_duration,
-    below_here,
-    dashed_remapping,
-    duration_ns,
-    global_name,
-    tool_node,
-)
+from .listening import SECOND, Span, tool_node
+from .options import Parser, add_duration, below_here, dashed_remapping, duration_ns, global_name
 from .tool import NOT_A_VERB, ArgumentParser, Call, Lines, Overview, Prompt, Result, Shown, Tool, Verb, VerbError, shown
 
 __all__ = [
