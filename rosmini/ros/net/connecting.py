@@ -45,7 +45,7 @@ def connect(
     for line in where.notes if announce else where.faults:
         sys.stderr.write(f"rosmini: {line}\n")
 
-    def way(graph: Graph) -> RemoteMaster:
+    def remote_master(graph: Graph) -> RemoteMaster:
         network = network_of(graph)
         watch = Watch(graph, where.master_uri, network.io, network.client)
         return RemoteMaster(where.master_uri, network.client, watch)
@@ -57,5 +57,5 @@ def connect(
         strict=False,
         transports=[LocalTransport, tcp(where)],
         log_dir=log_dir,
-        master=way,
+        master=remote_master,
     )
