@@ -25,24 +25,6 @@ from rosmini.core.errors import RosminiError, nearest
 
 from .shapes import Box, Cylinder, Part, is_finite, reach_of
 
-__all__ = [
-    "BURGER",
-    "GRAVITY",
-    "MODELS",
-    "WAFFLE",
-    "WAFFLE_PI",
-    "CameraModel",
-    "Drive",
-    "ImuModel",
-    "LidarModel",
-    "ModelError",
-    "Part",
-    "RobotModel",
-    "UnknownModel",
-    "WheelErrors",
-    "model",
-]
-
 Point = tuple[float, float, float]
 
 GRAVITY = 9.80665

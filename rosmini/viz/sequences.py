@@ -14,8 +14,6 @@ from rosmini.viz.svg import document, element
 from rosmini.viz.view import Picture, ViewError
 from rosmini.viz.words import plural
 
-__all__ = ["Call", "recorded_calls", "sequence_diagram"]
-
 COLOURS = ["page", "ink", "line", "label", "muted", "node-fill", "node-line", "group-line"]
 HEAD = 30.0
 ROW = 32.0

@@ -16,10 +16,10 @@ from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World
 from rosmini.viz.embed import STATIC
-from rosmini.viz.live.key_maps import NAMES
+from rosmini.viz.live.key_maps import NAMES, key_map
 from rosmini.viz.live.pad import TeleopPad
 from rosmini.viz.live.page import SCRIPTS, pad_data
-from rosmini.viz.live.teleop import PERIOD, Limits, Teleop, key_map, table
+from rosmini.viz.live.teleop import PERIOD, Limits, Teleop, table
 
 from ..conftest import nightly
 

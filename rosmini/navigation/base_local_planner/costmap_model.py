@@ -12,9 +12,7 @@ from numpy.typing import ArrayLike
 from rosmini.core.geometry.poses import Pose
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
 
-from .rollout import HIT, OUTSIDE, UNSEEN, compiled_footprint_cost
-
-__all__ = ["HIT", "OUTSIDE", "UNSEEN", "footprint_cells", "footprint_cost", "line_cells"]
+from .rollout import compiled_footprint_cost
 
 
 def footprint_cost(grid: Costmap2D, pose: Pose, footprint: ArrayLike) -> int:

@@ -35,7 +35,7 @@ from .bodies import AT_REST, Surface, Velocity
 from .contacts import Touch
 from .cross_sections import obstacle_part, robot_parts
 from .ground import Ground
-from .instant import STEP, to_ns
+from .instant import to_ns
 from .laser_view import LaserView
 from .odometry import RealWheels
 from .population import Population
@@ -48,8 +48,6 @@ Floats = NDArray[np.float64]
 
 FOOTPRINT_SCALE = 0.999
 """Factor by which a footprint shrinks when searching for a free place: 0.1 mm on each side of a Burger."""
-
-__all__ = ["STEP", "Engine", "EngineState", "RobotGone"]
 
 
 class RobotGone(RosminiError):

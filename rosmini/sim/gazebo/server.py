@@ -41,8 +41,6 @@ from .snapshot import Pictured, Snapshot
 from .spawning import spawn_text
 from .topics import GazeboMaster
 
-__all__ = ["Gazebo", "GazeboError", "GazeboServer", "server_parser"]
-
 EMPTY = "worlds/empty.world"
 """The default world of gzserver."""
 

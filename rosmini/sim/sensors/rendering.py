@@ -27,8 +27,6 @@ from . import raster, shading
 from .raster import GROUND, Eye, Lens
 from .scene import Scene
 
-__all__ = ["CameraInfo", "Eye", "camera_info", "develop", "expose", "eye_of"]
-
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
 Depths = NDArray[np.float32]

@@ -18,10 +18,11 @@ from rosmini.sim.models import RobotModel
 from rosmini.sim.shapes import Polygon
 from rosmini.sim.simulation import Simulation
 from rosmini.sim.world import Obstacle, World
+from rosmini.viz.live.key_maps import TeleopError
 from rosmini.viz.replay.canvas_data import scene_data, shapes_of
 from rosmini.viz.world_pictures import colour_of, pose_text
 
-from .teleop import Limits, TeleopError
+from .teleop import Limits
 
 Floats = NDArray[np.float64]
 

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rosmini.msgs import message_class
+from rosmini.viz.live.key_maps import TeleopError
 
 from .page import pad_data, scripts_of
-from .teleop import TeleopError
 
 try:
     from .page_link import LEFT_S, PageLink

@@ -30,12 +30,13 @@ from rosmini.core.names import resolve
 from rosmini.msgs import message_class
 from rosmini.sim.simulation import Simulation
 from rosmini.sim.turtlesim import TurtleSim
+from rosmini.viz.live.key_maps import TeleopError
 
 from .driven_robot import DrivenRobot
 from .driven_turtle import DrivenTurtle
 from .key_maps import key_map
 from .live_view import LiveView
-from .teleop import PERIOD, Limits, Teleop, TeleopError
+from .teleop import PERIOD, Limits, Teleop
 
 NAME = "teleop_pad"
 """Name of a pad's node."""

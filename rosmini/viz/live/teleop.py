@@ -28,8 +28,6 @@ GRAIN = 1e6
 REST = (0.0, 0.0)
 _LINEAR, _ANGULAR = burger_limits()
 
-__all__ = ["GRAIN", "PERIOD", "SLOPE", "KeyMap", "Limits", "Teleop", "TeleopError", "key_map", "table"]
-
 
 @dataclass(frozen=True)
 class Limits:

@@ -18,9 +18,9 @@ from rosmini.core.geometry.polygons import simplified_indices
 from rosmini.core.geometry.poses import compose, inverse
 from rosmini.core.geometry.products import inverse_matrix, matrix_product
 from rosmini.sim.models import LidarModel, RobotModel
-from rosmini.sim.models import Part as SimplePart
 from rosmini.sim.sensors.scene import trapezia
 from rosmini.sim.shapes import Cylinder, Simple, Sphere, outline_at, simple_parts
+from rosmini.sim.shapes import Part as SimplePart
 from rosmini.sim.world import Obstacle, Pose, World
 from rosmini.viz import style
 from rosmini.viz.replay.packing import ANGLE, TIME, pack_columns

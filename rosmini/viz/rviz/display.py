@@ -25,8 +25,6 @@ from .context import Context
 from .primitives import DisplayError, Pane, Primitive
 from .properties import Properties, Property
 
-__all__ = ["Context", "Display", "DisplayError", "Level", "Status"]
-
 Shown = tuple[str, tuple[Primitive, ...]]
 """The name of a display, and its primitives."""
 RESERVED = ("Class", "Name", "Enabled", "Value")

@@ -10,14 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.navigation.base_local_planner import rollout
-from rosmini.navigation.base_local_planner.costmap_model import (
-    HIT,
-    OUTSIDE,
-    UNSEEN,
-    footprint_cells,
-    footprint_cost,
-    line_cells,
-)
+from rosmini.navigation.base_local_planner.costmap_model import footprint_cells, footprint_cost, line_cells
+from rosmini.navigation.base_local_planner.rollout import HIT, OUTSIDE, UNSEEN
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
 
 SQUARE = [(-1, -1), (-1, 1), (1, 1), (1, -1)]

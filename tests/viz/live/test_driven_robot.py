@@ -6,9 +6,10 @@ import pytest
 from rosmini import rosrun
 from rosmini.sim.engine import RobotGone
 from rosmini.sim.gazebo.errors import UnknownEntity
+from rosmini.viz.live.key_maps import TeleopError
 from rosmini.viz.live.live import Link
 from rosmini.viz.live.page import pad_data
-from rosmini.viz.live.teleop import Limits, TeleopError
+from rosmini.viz.live.teleop import Limits
 
 CAR = (
     '<sdf version="1.6"><model name="{name}"><link name="link"><inertial><mass>1</mass></inertial>'

@@ -7,9 +7,9 @@ import pytest
 
 from rosmini import rosrun
 from rosmini.msgs.geometry_msgs.msg import Twist
+from rosmini.viz.live.key_maps import TeleopError
 from rosmini.viz.live.pad import TeleopPad
 from rosmini.viz.live.page import pad_data
-from rosmini.viz.live.teleop import TeleopError
 
 from .test_live import page_of
 

@@ -11,10 +11,10 @@ from rosmini import rosrun
 from rosmini.core.errors import RosminiError
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.sim.simulator import Simulator
+from rosmini.viz.live.key_maps import TeleopError
 from rosmini.viz.live.live import Link
 from rosmini.viz.live.loopback import PageServer
 from rosmini.viz.live.pad import TeleopPad
-from rosmini.viz.live.teleop import TeleopError
 
 from .pages import Page
 

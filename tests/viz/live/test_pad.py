@@ -4,8 +4,8 @@ import pytest
 
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.sim.simulator import Simulator
+from rosmini.viz.live.key_maps import TeleopError
 from rosmini.viz.live.pad import TeleopPad
-from rosmini.viz.live.teleop import TeleopError
 
 
 def test_a_key_publishes_at_once_and_then_every_tenth_of_a_second(graph, heard):

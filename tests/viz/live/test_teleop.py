@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.viz.live.key_maps import NAMES
-from rosmini.viz.live.teleop import Limits, Teleop, TeleopError, key_map
+from rosmini.viz.live.key_maps import NAMES, TeleopError, key_map
+from rosmini.viz.live.teleop import Limits, Teleop
 
 BURGER = Limits(0.22, 2.84)
 

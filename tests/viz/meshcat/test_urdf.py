@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 pytest.importorskip("meshcat")
 
-from rosmini.sim.models import Part, RobotModel, model
+from rosmini.sim.models import RobotModel, model
 from rosmini.sim.recording import Recording
-from rosmini.sim.shapes import Box, Cylinder
+from rosmini.sim.shapes import Box, Cylinder, Part
 from rosmini.sim.urdf import load
 from rosmini.sim.urdf.errors import UnknownJoint
 from rosmini.sim.worlds import world
