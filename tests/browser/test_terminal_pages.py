@@ -46,7 +46,7 @@ PAGES = """
 from rosmini.ros.net import connect
 from rosmini.viz.live.pad import TeleopPad
 from rosmini.viz.live.loopback import PageServer
-from rosmini.viz.rqt import MessagePublisher
+from rosmini.viz.rqt.publisher import MessagePublisher
 
 with connect() as graph:
     for live in (MessagePublisher(graph), TeleopPad(graph)):
