@@ -23,8 +23,10 @@ def connections() -> Iterator[tuple[tuple[str, int], socket.socket]]:
     """The connected sockets of this process over IPv4, by their peers' addresses; /proc lists them."""
     for number in os.listdir("/proc/self/fd"):
         try:
+            if not os.readlink(f"/proc/self/fd/{number}").startswith("socket:"):
+                continue  # a duplicate of a pipe would stay open: `tests/processes.py` waits for the end of one
             found = socket.socket(fileno=os.dup(int(number)))
-        except OSError:  # it is no socket, or closed meanwhile
+        except OSError:  # it was closed meanwhile
             continue
         with found:
             if found.family == socket.AF_INET and found.type == socket.SOCK_STREAM:
