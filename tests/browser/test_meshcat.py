@@ -282,6 +282,8 @@ def test_a_run_plays_and_the_robot_moves(open_page, shared_tmp):
     wheel = node("meshcat/robots/robot/wheel_left")
     assert viewer(page, f"{robot}.position.toArray()") == pytest.approx([0, 0, 0], abs=1e-3)
     before = pixels(page)
+    # Slowly: on a busy machine the run would be over before the click, which would start it again.
+    page.get_by_role("combobox", name="Speed").select_option("0.25")
     page.get_by_role("button", name="Play").click()
     page.wait_for_function("Number(document.querySelector('input[type=range]').value) > 0.5")
     page.get_by_role("button", name="Pause").click()

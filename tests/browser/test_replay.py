@@ -185,6 +185,8 @@ def test_it_waits_to_be_told_then_plays_and_pauses(write, opened, recording):
     painted(page)
     assert time_of(page) == 0.0
     before = page.evaluate(PICTURE)
+    # Slowly: on a busy machine it would be over before the click on Pause.
+    page.get_by_role("combobox", name="Speed").select_option("0.25")
     page.get_by_role("button", name="Play").click()
     page.wait_for_function("document.querySelector('.rosmini-replay').dataset.time > 0.7")
     assert reading(page, "truth")[0] > 0.05

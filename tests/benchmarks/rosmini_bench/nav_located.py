@@ -292,8 +292,11 @@ robot moves, and the wheels slip. The runs that a row of a table summarises diff
 brackets, the first number is the median over the runs, and the number in brackets is that of the worst run. In Figures
 1 and 3 each run is a small point, and the median a large one. Each run is stored in
 `assets/benchmarks/localization.json`, with the commit that produced it. A chapter that quotes a number from this page
-links to its row. To run more drives:
-`PYTHONPATH=tests/benchmarks uv run python -m rosmini_bench.nav_located lost house --seeds 11 20`.
+links to the row that contains it. This command runs more drives:
+
+```
+PYTHONPATH=tests/benchmarks uv run python -m rosmini_bench.nav_located lost house --seeds 11 20
+```
 """
 
 WORDS: MappingProxyType[str, str] = MappingProxyType(
@@ -346,8 +349,8 @@ the hall and the corridors look the same from either end.
 After {CARRIED:.0f} s the robot is carried elsewhere without its odometry noticing. The parameters are those listed
 above. amcl adds random particles while the fast average of the likelihood is below the slow average, and resets both
 averages after a resampling step in which it added any. With a narrow bell curve, the likelihood varies by powers of ten
-from scan to scan, so amcl adds random particles only a few times in two minutes. With a wide bell curve, the likelihood
-varies less, and the few random particles near the true pose win.
+from scan to scan, and amcl added random particles only a few times in two minutes. With a wide bell curve, the
+likelihood varies less, and the few random particles near the true pose win.
 """,
         "gmapping": """
 ## gmapping
