@@ -96,7 +96,7 @@ def main(args: argparse.Namespace) -> int:
             raise refusal(graph, where.uri(port), error) from error
         with suppress(KeyboardInterrupt):
             introduce(graph, where, server, with_rosout=not args.core)
-            # `stop` ends only a run that has begun: the reason is looked at, too
+            # `serve` stops only a run that has begun; a request that came earlier is noticed here
             graph.run(until=lambda: server.shutdown_reason is not None)
         if server.shutdown_reason is not None:
             print(server.shutdown_reason, flush=True)
