@@ -51,7 +51,7 @@ class FakeLocalization:
         )
         self._tolerance = Duration.from_sec(own.transform_tolerance)
         self._offset = from_yaw(-own.delta_x, -own.delta_y, -own.delta_yaw)
-        """The transform applied to true poses. As in the original each delta is subtracted separately."""
+        """The transform applied to true poses. As in the original, each delta is subtracted separately."""
         self._waiting: deque[Any] = deque(maxlen=MAX_WAITING)
         self.buffer = TransformListener(node).buffer
         self._broadcaster = TransformBroadcaster(node)
