@@ -40,6 +40,10 @@ async function start() {
     bytesOf(new URL("packages.zip", self.location.href)),
     ...Object.entries(HASHES).map(read),
   ]);
+  // Chromium's page crashes when a worker is terminated in a callback of postTask, in which Pyodide would run Python.
+  const { scheduler } = self;
+  const postTask = (task, options) => scheduler.postTask(() => void setTimeout(task), options);
+  if (scheduler) Object.defineProperty(self, "scheduler", { value: { postTask } });
   const { loadPyodide } = await load(core[`${CORE}pyodide.mjs`]);
   await load(core[`${CORE}pyodide.asm.js`]);
   const fetchAny = self.fetch;

@@ -53,6 +53,16 @@ for number in range(20):
 print(graph.live())
 """
 
+ENDLESS_CALLBACK = """
+from rosmini import Graph
+def spin(event):
+    while True:
+        pass
+graph = Graph()
+graph.node("clock").timer(0.001, spin)
+print(graph.live())
+"""
+
 ENDLESS_RUN = """
 from rosmini import Graph
 graph = Graph()
@@ -217,7 +227,9 @@ def test_axe_finds_nothing_on_a_page_that_runs(running, scheme):
     assert violations_of(running) == []
 
 
-def test_a_loop_that_never_waits_is_ended_by_restarting_python(running):
+@pytest.mark.parametrize("before", ["", ENDLESS_CALLBACK], ids=["cell", "callback"])
+def test_a_loop_that_never_waits_is_ended_by_restarting_python(running, before):
+    last_cell(running, before)
     cell = last_cell(running, "while True: pass")
     cell.get_by_role("button", name="Stop").click()
     wait_for(running, "A loop that never waits ends only when Python is restarted.")
