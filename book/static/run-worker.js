@@ -40,7 +40,7 @@ async function start() {
     bytesOf(new URL("packages.zip", self.location.href)),
     ...Object.entries(HASHES).map(read),
   ]);
-  // Chromium's page crashes when a worker is terminated in a callback of postTask, in which Pyodide would run Python.
+  // Pyodide runs Python in callbacks of postTask, and Chromium's tab crashes if a worker is terminated in one of them.
   const { scheduler } = self;
   const postTask = (task, options) => scheduler.postTask(() => void setTimeout(task), options);
   if (scheduler) Object.defineProperty(self, "scheduler", { value: { postTask } });
